@@ -1,0 +1,201 @@
+use std::ops::{Add, Index, IndexMut, Sub};
+
+use crate::{Normal3D, Vector2D, Vector3D};
+
+/// A place in space [m].
+///
+/// Axes are right-handed: x to the left, y up, z forward.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Point3D {
+    /// Coordinate along x (left) [m].
+    pub x: f64,
+    /// Coordinate along y (up) [m].
+    pub y: f64,
+    /// Coordinate along z (forward) [m].
+    pub z: f64,
+}
+
+impl Point3D {
+    /// (0, 0, 0).
+    pub const ORIGIN: Self = Self::new(0.0, 0.0, 0.0);
+
+    /// From its coordinates [m].
+    #[inline]
+    pub const fn new(x: f64, y: f64, z: f64) -> Self {
+        Self { x, y, z }
+    }
+
+    /// The vector from this point to `other`.
+    #[inline]
+    pub fn vector_to(self, other: Self) -> Vector3D {
+        Vector3D::new(other.x - self.x, other.y - self.y, other.z - self.z)
+    }
+
+    /// Euclidean distance [m].
+    #[inline]
+    pub fn distance_to(self, other: Self) -> f64 {
+        self.vector_to(other).length()
+    }
+
+    /// The vector from the origin to this point.
+    #[inline]
+    pub const fn to_vector(self) -> Vector3D {
+        Vector3D::new(self.x, self.y, self.z)
+    }
+
+    /// The three coordinates [m].
+    #[inline]
+    pub const fn to_array(self) -> [f64; 3] {
+        [self.x, self.y, self.z]
+    }
+
+    /// The largest absolute coordinate [m]; NaN if one is NaN.
+    #[inline]
+    pub fn max_abs(self) -> f64 {
+        self.to_vector().max_abs()
+    }
+
+    /// True if no coordinate is infinite or NaN.
+    #[inline]
+    pub fn is_finite(self) -> bool {
+        self.to_vector().is_finite()
+    }
+}
+
+impl From<[f64; 3]> for Point3D {
+    #[inline]
+    fn from([x, y, z]: [f64; 3]) -> Self {
+        Self::new(x, y, z)
+    }
+}
+
+impl From<glam::DVec3> for Point3D {
+    #[inline]
+    fn from(v: glam::DVec3) -> Self {
+        Self::new(v.x, v.y, v.z)
+    }
+}
+
+impl From<Point3D> for glam::DVec3 {
+    #[inline]
+    fn from(p: Point3D) -> Self {
+        Self::new(p.x, p.y, p.z)
+    }
+}
+
+impl Add<Vector3D> for Point3D {
+    type Output = Self;
+    #[inline]
+    fn add(self, v: Vector3D) -> Self {
+        Self::new(self.x + v.x, self.y + v.y, self.z + v.z)
+    }
+}
+
+impl Add<Normal3D> for Point3D {
+    type Output = Self;
+    #[inline]
+    fn add(self, v: Normal3D) -> Self {
+        self + v.as_vector()
+    }
+}
+
+impl Sub<Vector3D> for Point3D {
+    type Output = Self;
+    #[inline]
+    fn sub(self, v: Vector3D) -> Self {
+        Self::new(self.x - v.x, self.y - v.y, self.z - v.z)
+    }
+}
+
+impl Sub<Normal3D> for Point3D {
+    type Output = Self;
+    #[inline]
+    fn sub(self, v: Normal3D) -> Self {
+        self - v.as_vector()
+    }
+}
+
+impl Index<usize> for Point3D {
+    type Output = f64;
+    #[inline]
+    fn index(&self, axis: usize) -> &f64 {
+        match axis {
+            0 => &self.x,
+            1 => &self.y,
+            2 => &self.z,
+            _ => panic!("axis {axis} of a point in space (0, 1 or 2)"),
+        }
+    }
+}
+
+impl IndexMut<usize> for Point3D {
+    #[inline]
+    fn index_mut(&mut self, axis: usize) -> &mut f64 {
+        match axis {
+            0 => &mut self.x,
+            1 => &mut self.y,
+            2 => &mut self.z,
+            _ => panic!("axis {axis} of a point in space (0, 1 or 2)"),
+        }
+    }
+}
+
+/// A place in a plane [m].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Point2D {
+    /// Coordinate along x [m].
+    pub x: f64,
+    /// Coordinate along y [m].
+    pub y: f64,
+}
+
+impl Point2D {
+    /// From its coordinates [m].
+    #[inline]
+    pub const fn new(x: f64, y: f64) -> Self {
+        Self { x, y }
+    }
+
+    /// The vector from this point to `other`.
+    #[inline]
+    pub fn vector_to(self, other: Self) -> Vector2D {
+        Vector2D::new(other.x - self.x, other.y - self.y)
+    }
+
+    /// Euclidean distance [m].
+    #[inline]
+    pub fn distance_to(self, other: Self) -> f64 {
+        self.vector_to(other).length()
+    }
+}
+
+impl Add<Vector2D> for Point2D {
+    type Output = Self;
+    #[inline]
+    fn add(self, v: Vector2D) -> Self {
+        Self::new(self.x + v.x, self.y + v.y)
+    }
+}
+
+impl Sub<Vector2D> for Point2D {
+    type Output = Self;
+    #[inline]
+    fn sub(self, v: Vector2D) -> Self {
+        Self::new(self.x - v.x, self.y - v.y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_move_along_vectors() {
+        let p = Point3D::new(1.0, 2.0, 3.0);
+        let q = p + Vector3D::new(0.0, -2.0, 1.0);
+        assert_eq!(q, Point3D::new(1.0, 0.0, 4.0));
+        assert_eq!(p.vector_to(q), Vector3D::new(0.0, -2.0, 1.0));
+        assert_eq!(Point2D::new(0.0, 0.0).distance_to(Point2D::new(3.0, 4.0)), 5.0);
+        assert_eq!([q[0], q[1], q[2]], q.to_array());
+    }
+}

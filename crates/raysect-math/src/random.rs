@@ -1,0 +1,156 @@
+use rand_core::{Rng as _, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// Names one stream of random numbers: one path of one observation.
+///
+/// Streams with different keys are unrelated, whichever field differs, and a key always gives the same
+/// numbers: this is what makes an image independent of threads, passes and machines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct StreamKey {
+    /// The user's seed.
+    pub seed: u64,
+    /// Independent set of samples (0 unless the work is split across machines).
+    pub lane: u64,
+    /// Spectral slice.
+    pub slice: u64,
+    /// Pixel.
+    pub pixel: u64,
+    /// Absolute number of the sample in its pixel.
+    pub sample: u64,
+}
+
+/// A source of random numbers: PCG XSL 128/64 MCG (M. O'Neill, *PCG: A Family of Simple Fast Space-Efficient
+/// Statistically Good Algorithms for Random Number Generation*, HMC-CS-2014-0905).
+///
+/// There is no global generator: a value is passed on explicitly.
+///
+/// ```
+/// use raysect_math::Rng;
+/// let (mut a, mut b) = (Rng::new(0), Rng::new(0));
+/// assert_eq!(a.uniform(), b.uniform());
+/// assert_ne!(Rng::new(0).uniform(), Rng::new(1).uniform());
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Rng(Pcg64Mcg);
+
+/// One step of SplitMix64's output function: a bijection that mixes every bit into every other
+/// (G. Steele, D. Lea, C. Flood, *Fast splittable pseudorandom number generators*, OOPSLA 2014).
+#[inline]
+fn mix(mut z: u64) -> u64 {
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+
+impl Rng {
+    /// A generator for the given seed; every seed is good, 0 included.
+    pub fn new(seed: u64) -> Self {
+        Self::keyed(StreamKey { seed, ..StreamKey::default() })
+    }
+
+    /// The generator of a keyed stream, at its beginning.
+    #[inline]
+    pub fn keyed(key: StreamKey) -> Self {
+        // A chain of bijections: keys that differ in one field only can never collide.
+        let mut h = mix(key.seed.wrapping_add(GOLDEN));
+        for field in [key.lane, key.slice, key.pixel, key.sample] {
+            h = mix((h ^ field).wrapping_add(GOLDEN));
+        }
+        let low = mix(h.wrapping_add(GOLDEN)).to_le_bytes();
+        let high = mix(h.wrapping_add(GOLDEN.wrapping_mul(2))).to_le_bytes();
+        let mut state = [0; 16];
+        state[..8].copy_from_slice(&low);
+        state[8..].copy_from_slice(&high);
+        Self(Pcg64Mcg::from_seed(state))
+    }
+
+    /// Sixty-four random bits.
+    #[inline]
+    pub fn bits(&mut self) -> u64 {
+        self.0.next_u64()
+    }
+
+    /// Uniform in the open interval (0, 1): one of 2⁵² values (k + ½) · 2⁻⁵², never 0 and never 1, so that
+    /// logarithms and quotients of it are finite.
+    #[inline]
+    pub fn uniform(&mut self) -> f64 {
+        const STEP: f64 = 1.0 / (1u64 << 52) as f64;
+        ((self.bits() >> 12) as f64 + 0.5) * STEP
+    }
+
+    /// Uniform in (`low`, `high`).
+    #[inline]
+    pub fn range(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.uniform()
+    }
+
+    /// Normally distributed, by the transform of Box and Muller (1958); no second value is kept back.
+    pub fn normal(&mut self, mean: f64, standard_deviation: f64) -> f64 {
+        let radius = (-2.0 * self.uniform().ln()).sqrt();
+        let angle = std::f64::consts::TAU * self.uniform();
+        mean + standard_deviation * radius * angle.cos()
+    }
+
+    /// True with probability `p`: always for 1 or more, never for 0 or less.
+    #[inline]
+    pub fn probability(&mut self, p: f64) -> bool {
+        self.uniform() < p
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_that_differ_anywhere_give_unrelated_streams() {
+        let keys = |field: usize, value: u64| {
+            let mut f = [7u64; 5];
+            f[field] = value;
+            StreamKey { seed: f[0], lane: f[1], slice: f[2], pixel: f[3], sample: f[4] }
+        };
+        for field in 0..5 {
+            let n = 10_000;
+            let draws: Vec<[f64; 2]> = (0..n)
+                .map(|i| {
+                    let mut rng = Rng::keyed(keys(field, i));
+                    [rng.uniform() - 0.5, rng.uniform() - 0.5]
+                })
+                .collect();
+            let correlation =
+                |f: &dyn Fn(usize) -> f64| (0..n as usize - 1).map(f).sum::<f64>() * 12.0 / (n as f64 - 1.0);
+            let bound = 4.0 / (n as f64).sqrt();
+            assert!(correlation(&|i| draws[i][0] * draws[i + 1][0]).abs() < bound);
+            assert!(correlation(&|i| draws[i][0] * draws[i][1]).abs() < bound);
+            assert!(correlation(&|i| draws[i][1] * draws[i + 1][0]).abs() < bound);
+        }
+    }
+
+    #[test]
+    fn uniforms_stay_inside_the_open_interval_and_average_one_half() {
+        let mut rng = Rng::new(3);
+        let n = 1_000_000;
+        let (mut sum, mut low, mut high) = (0.0, 1.0f64, 0.0f64);
+        for _ in 0..n {
+            let u = rng.uniform();
+            sum += u;
+            low = low.min(u);
+            high = high.max(u);
+        }
+        assert!(low > 0.0 && high < 1.0);
+        assert!((sum / n as f64 - 0.5).abs() < 4.0 / (12.0 * n as f64).sqrt());
+    }
+
+    #[test]
+    fn normal_deviates_have_their_moments() {
+        let mut rng = Rng::new(11);
+        let n = 400_000;
+        let x: Vec<f64> = (0..n).map(|_| rng.normal(2.0, 3.0)).collect();
+        let mean = x.iter().sum::<f64>() / n as f64;
+        let variance = x.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n as f64;
+        assert!((mean - 2.0).abs() < 4.0 * 3.0 / (n as f64).sqrt());
+        assert!((variance / 9.0 - 1.0).abs() < 4.0 * (2.0 / n as f64).sqrt());
+    }
+}
