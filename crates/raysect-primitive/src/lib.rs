@@ -1,1 +1,29 @@
-//! placeholder
+//! Geometric shapes of the raysect ray tracer.
+//!
+//! A shape is described in its own space and placed by the transform of its node. Constructors refuse impossible
+//! dimensions with an error that names them; `Default` gives Raysect's default shape.
+//!
+//! ```
+//! use raysect_core::{Node, Ray, World};
+//! use raysect_math::{Point3D, Vector3D, translate};
+//! use raysect_primitive::{Cuboid, Sphere};
+//!
+//! let mut world = World::<()>::new();
+//! world.add(Cuboid::centred(2.0, 2.0, 2.0)?)?;
+//! world.add(Node::of(Sphere::new(0.5)?, ()).transform(translate(0.0, 0.0, 4.0)))?;
+//! let hits = world.crossings(&Ray::new(Point3D::new(0.0, 0.0, -3.0), Vector3D::Z))?;
+//! let distances: Vec<f64> = hits.iter().map(|h| h.distance()).collect();
+//! assert_eq!(distances, [2.0, 4.0, 6.5, 7.5]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A shape of your own implements [`Primitive`](raysect_core::Primitive); test it with
+//! [`check_primitive`](raysect_core::testing::check_primitive).
+
+mod cuboid;
+mod error;
+mod sphere;
+
+pub use cuboid::Cuboid;
+pub use error::PrimitiveError;
+pub use sphere::Sphere;

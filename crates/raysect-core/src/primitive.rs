@@ -1,0 +1,266 @@
+//! The contract of a shape.
+
+use std::sync::Arc;
+
+use raysect_math::{AffineMatrix3D, Normal3D, Point3D, Vector3D};
+
+use crate::{BoundingBox3D, BoundingSphere3D, Interval, Ray};
+
+/// Names the leaf of a composite, the face of a leaf and the place on the face.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Feature {
+    /// Leaf of a composite shape; 0 for a plain one.
+    pub part: u32,
+    /// Face of the leaf (the triangle of a mesh).
+    pub face: u32,
+    /// Coordinates on the face, as the shape defines them (barycentric v, w of a triangle).
+    pub uv: [f64; 2],
+}
+
+/// A place where a line crosses the surface of a shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crossing {
+    /// Distance along the ray, in units of the direction's length.
+    pub distance: f64,
+    /// Which piece of the surface.
+    pub feature: Feature,
+    /// True if the line leaves the shape there.
+    pub exiting: bool,
+}
+
+/// How a ray that starts on the surface of a shape leaves it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Departure {
+    /// True if the ray goes to the inside of the surface.
+    pub inward: bool,
+    /// The crossing that is being left lies within ± this distance of the ray's origin.
+    pub bound: f64,
+    /// The piece of the surface that is being left.
+    pub feature: Feature,
+}
+
+/// The surface at a crossing, in the local space of the shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surface {
+    /// The point, brought back onto the surface as exactly as rounding allows [m].
+    pub point: Point3D,
+    /// The outward unit normal of the geometry.
+    pub normal: Normal3D,
+    /// The outward unit normal to shade with; differs from `normal` on smoothed meshes only.
+    pub shading_normal: Normal3D,
+    /// Bound on the distance of `point` from the true surface [m].
+    pub bound: f64,
+}
+
+/// A point drawn on a surface by [`Primitive::sample_surface`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfaceSample {
+    /// The point [m].
+    pub point: Point3D,
+    /// The outward unit normal there.
+    pub normal: Normal3D,
+    /// Density of the choice [1/m²].
+    pub density: f64,
+}
+
+/// A direction drawn towards a shape by [`Primitive::sample_direction`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DirectionSample {
+    /// Unit vector towards the shape.
+    pub direction: Vector3D,
+    /// Density of the choice [1/sr].
+    pub density: f64,
+}
+
+/// How points on a shape can be chosen as seen from a point, for light sampling.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SurfaceSampling {
+    /// Not at all: its bounding sphere is aimed at instead.
+    None,
+    /// By area: [`Primitive::sample_surface`].
+    Area,
+    /// By solid angle: [`Primitive::sample_direction`].
+    SolidAngle,
+}
+
+/// Room for the intermediate results of shapes, lent by the caller and reused: one per worker.
+#[derive(Debug, Default)]
+pub struct Scratch {
+    pool: Vec<Vec<Crossing>>,
+}
+
+impl Scratch {
+    /// An empty list of crossings, to be given back.
+    pub fn take(&mut self) -> Vec<Crossing> {
+        let mut list = self.pool.pop().unwrap_or_default();
+        list.clear();
+        list
+    }
+
+    /// Takes a list back for later use.
+    pub fn give_back(&mut self, list: Vec<Crossing>) {
+        self.pool.push(list);
+    }
+}
+
+/// A shape. It answers in its own local space, keeps no state between calls, and knows nothing of materials.
+///
+/// # Contract
+/// [`testing::check_primitive`](crate::testing::check_primitive) tests all of this:
+/// - `crossings` reports every crossing of the infinite line, in order. Those of a solid alternate between
+///   entering and leaving, beginning with entering; a touch gives none or a pair.
+/// - `hit` and `hit_after` report what `crossings` reports.
+/// - `contains` agrees with the parity of the crossings.
+/// - The bounding box contains every surface point, under every affine map.
+pub trait Primitive: Send + Sync + 'static {
+    /// A tight box around the image of the shape under `m`, rounded outward.
+    fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D;
+
+    /// A sphere around the image of the shape under `m`.
+    fn bounding_sphere(&self, m: &AffineMatrix3D) -> BoundingSphere3D {
+        self.bounding_box(m).enclosing_sphere()
+    }
+
+    /// True for points inside and on the surface of a solid.
+    fn contains(&self, point: Point3D) -> bool;
+
+    /// Appends every crossing of the infinite line through the ray, in order of distance.
+    fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>);
+
+    /// The first crossing within an interval of distances.
+    fn hit(&self, ray: &Ray, within: Interval, scratch: &mut Scratch) -> Option<Crossing> {
+        let mut all = scratch.take();
+        self.crossings(ray, scratch, &mut all);
+        let first = all.iter().copied().find(|c| within.contains(c.distance));
+        scratch.give_back(all);
+        first
+    }
+
+    /// The next crossing of a ray that starts on this very surface, up to `max_distance`.
+    ///
+    /// The crossing that is being left is recognised by its kind (a ray that goes inward has just entered)
+    /// and by being nearest to the origin, not by an offset; the answer is the one that follows it.
+    fn hit_after(
+        &self,
+        ray: &Ray,
+        departure: &Departure,
+        max_distance: f64,
+        scratch: &mut Scratch,
+    ) -> Option<Crossing> {
+        let mut all = scratch.take();
+        self.crossings(ray, scratch, &mut all);
+        let left = all
+            .iter()
+            .enumerate()
+            .filter(|(_, c)| c.exiting != departure.inward && c.distance.abs() <= departure.bound)
+            .min_by(|a, b| a.1.distance.abs().total_cmp(&b.1.distance.abs()))
+            .map(|(index, _)| index);
+        let next = match left {
+            Some(index) => all.get(index + 1).copied(),
+            None => all.iter().copied().find(|c| c.distance > 0.0),
+        };
+        scratch.give_back(all);
+        let next = next.map(|c| Crossing { distance: c.distance.max(0.0), ..c });
+        next.filter(|c| c.distance <= max_distance)
+    }
+
+    /// Point, normals and error bound at a crossing that this shape has reported for this ray.
+    fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface;
+
+    /// True if it encloses a volume; false for a sheet, which contains nothing.
+    fn is_solid(&self) -> bool {
+        true
+    }
+
+    /// True if a straight line crosses it at most twice.
+    fn is_convex(&self) -> bool {
+        false
+    }
+
+    /// How many leaves it is composed of.
+    fn parts(&self) -> u32 {
+        1
+    }
+
+    /// How points on it can be chosen for light sampling.
+    fn surface_sampling(&self) -> SurfaceSampling {
+        SurfaceSampling::None
+    }
+
+    /// A point on the part of the surface that faces `from`, from three uniforms in (0, 1).
+    fn sample_surface(&self, _from: Point3D, _u: [f64; 3]) -> Option<SurfaceSample> {
+        None
+    }
+
+    /// Density [1/m²] with which [`sample_surface`](Self::sample_surface) chooses `point` on the piece `feature`.
+    fn surface_density(&self, _from: Point3D, _point: Point3D, _feature: Feature) -> f64 {
+        0.0
+    }
+
+    /// A direction from `from` towards the shape, from two uniforms in (0, 1).
+    fn sample_direction(&self, _from: Point3D, _u: [f64; 2]) -> Option<DirectionSample> {
+        None
+    }
+
+    /// Density [1/sr] with which [`sample_direction`](Self::sample_direction) chooses a unit direction.
+    fn direction_density(&self, _from: Point3D, _direction: Vector3D) -> f64 {
+        0.0
+    }
+
+    /// What it is, for lists and messages.
+    fn kind(&self) -> &'static str {
+        let full = std::any::type_name::<Self>();
+        full.rsplit("::").next().unwrap_or(full)
+    }
+}
+
+impl<P: Primitive + ?Sized> Primitive for Arc<P> {
+    fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
+        (**self).bounding_box(m)
+    }
+    fn bounding_sphere(&self, m: &AffineMatrix3D) -> BoundingSphere3D {
+        (**self).bounding_sphere(m)
+    }
+    fn contains(&self, point: Point3D) -> bool {
+        (**self).contains(point)
+    }
+    fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
+        (**self).crossings(ray, scratch, out);
+    }
+    fn hit(&self, ray: &Ray, within: Interval, scratch: &mut Scratch) -> Option<Crossing> {
+        (**self).hit(ray, within, scratch)
+    }
+    fn hit_after(&self, ray: &Ray, left: &Departure, max: f64, scratch: &mut Scratch) -> Option<Crossing> {
+        (**self).hit_after(ray, left, max, scratch)
+    }
+    fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
+        (**self).surface(ray, crossing)
+    }
+    fn is_solid(&self) -> bool {
+        (**self).is_solid()
+    }
+    fn is_convex(&self) -> bool {
+        (**self).is_convex()
+    }
+    fn parts(&self) -> u32 {
+        (**self).parts()
+    }
+    fn surface_sampling(&self) -> SurfaceSampling {
+        (**self).surface_sampling()
+    }
+    fn sample_surface(&self, from: Point3D, u: [f64; 3]) -> Option<SurfaceSample> {
+        (**self).sample_surface(from, u)
+    }
+    fn surface_density(&self, from: Point3D, point: Point3D, feature: Feature) -> f64 {
+        (**self).surface_density(from, point, feature)
+    }
+    fn sample_direction(&self, from: Point3D, u: [f64; 2]) -> Option<DirectionSample> {
+        (**self).sample_direction(from, u)
+    }
+    fn direction_density(&self, from: Point3D, direction: Vector3D) -> f64 {
+        (**self).direction_density(from, direction)
+    }
+    fn kind(&self) -> &'static str {
+        (**self).kind()
+    }
+}

@@ -1,0 +1,345 @@
+use raysect_math::{AffineMatrix3D, Normal3D, Point3D, Vector3D};
+use std::sync::Arc;
+
+use crate::accel::{Accelerator, TraversalRay};
+use crate::{
+    Attachment, BoundingBox3D, Crossing, Departure, Feature, Intersection, Interval, NodeId, Primitive, Ray, Scratch,
+};
+
+/// A shape placed in the world, with what is attached to it.
+pub struct Instance<A> {
+    /// The shape.
+    pub primitive: Arc<dyn Primitive>,
+    /// What is attached to it: its material in optics.
+    pub attached: Arc<A>,
+    /// From the shape's space to the world.
+    pub to_world: AffineMatrix3D,
+    /// From the world to the shape's space.
+    pub to_local: AffineMatrix3D,
+    /// Box around it in the world [m].
+    pub bounds: BoundingBox3D,
+    /// The node it was compiled from.
+    pub node: NodeId,
+    /// The common factor of all lengths, if its transform is a similarity.
+    pub similarity: Option<f64>,
+    convex: bool,
+    /// Largest stretch of a length by `to_world`, and the size of its translation [m]: what rounding acts upon.
+    stretch: f64,
+    shift: f64,
+}
+
+impl<A> std::fmt::Debug for Instance<A> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} ({})", self.primitive.kind(), self.node)
+    }
+}
+
+impl<A> Instance<A> {
+    pub(crate) fn new(
+        primitive: Arc<dyn Primitive>,
+        attached: Arc<A>,
+        to_world: AffineMatrix3D,
+        to_local: AffineMatrix3D,
+        node: NodeId,
+    ) -> Self {
+        let bounds = primitive.bounding_box(&to_world);
+        let row = |i: usize| (0..3).map(|j| to_world.get(i, j).abs()).sum::<f64>();
+        Self {
+            convex: primitive.is_convex(),
+            stretch: row(0).max(row(1)).max(row(2)),
+            shift: to_world.origin().max_abs(),
+            similarity: to_world.similarity_scale(),
+            primitive,
+            attached,
+            to_world,
+            to_local,
+            bounds,
+            node,
+        }
+    }
+
+    #[inline]
+    fn local(&self, ray: &Ray) -> Ray {
+        Ray {
+            origin: self.to_local.transform_point(ray.origin),
+            direction: self.to_local.transform_vector(ray.direction),
+            max_distance: ray.max_distance,
+        }
+    }
+}
+
+/// What a ray has hit, before anything is computed about it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate {
+    /// Number of the instance in the scene.
+    pub instance: u32,
+    /// Where.
+    pub crossing: Crossing,
+}
+
+/// The surface at a hit, in world space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// Number of the instance in the scene.
+    pub instance: u32,
+    /// The point [m].
+    pub point: Point3D,
+    /// The point in the local space of the shape [m].
+    pub local_point: Point3D,
+    /// Outward unit normal of the geometry.
+    pub normal: Normal3D,
+    /// Outward unit normal to shade with.
+    pub shading_normal: Normal3D,
+    /// Bound on the error of `point` [m].
+    pub bound: f64,
+    /// Distance along the ray, in units of its direction's length.
+    pub distance: f64,
+    /// True if the ray leaves the shape here.
+    pub exiting: bool,
+    /// Which piece of the surface.
+    pub feature: Feature,
+}
+
+impl SurfacePoint {
+    /// The point moved off the surface by twice its error bound, outward or inward, for code that starts a ray of
+    /// its own without saying where it comes from.
+    #[doc(alias("inside_point", "outside_point"))]
+    pub fn launch_point(&self, outward: bool) -> Point3D {
+        let step = self.normal.as_vector() * (2.0 * self.bound);
+        if outward { self.point + step } else { self.point - step }
+    }
+}
+
+/// How many surfaces at one place are remembered while a ray works its way through them.
+const CLUSTER: usize = 4;
+
+/// Where a ray comes from: the surface it leaves, and others that coincide with it.
+///
+/// Nothing is moved off a surface. The ray begins at the hit point, and the crossing that it leaves is recognised
+/// by its instance and kind. Within the error of the point, crossings of *other* instances count exactly if the
+/// ray still has to pass them: if it runs through their surface in the sense in which it arrived, and has not been
+/// through them already.
+#[derive(Debug, Clone, Copy)]
+pub struct Leaving {
+    instance: u32,
+    departure: Departure,
+    zone: f64,
+    arrived: Vector3D,
+    towards: Vector3D,
+    cluster: [(u32, Vector3D); CLUSTER],
+    clustered: usize,
+}
+
+impl Leaving {
+    /// For a ray that arrived along `arrived` at `surface` and leaves along `towards` (both unit vectors).
+    /// `before` is where the arriving ray itself came from.
+    pub fn new(surface: &SurfacePoint, arrived: Vector3D, towards: Vector3D, before: Option<&Self>) -> Self {
+        let cosine = surface.normal.dot(towards);
+        let departure = Departure {
+            inward: cosine < 0.0,
+            bound: surface.bound / cosine.abs().max(1e-12),
+            feature: surface.feature,
+        };
+        let mut leaving = Self {
+            instance: surface.instance,
+            departure,
+            zone: surface.bound / cosine.abs().max(1e-3),
+            arrived,
+            towards,
+            cluster: [(u32::MAX, Vector3D::ZERO); CLUSTER],
+            clustered: 0,
+        };
+        if let Some(before) = before.filter(|b| surface.distance <= b.zone) {
+            // The same place as before: keep in mind which way the ray has gone through what coincides here.
+            for &(instance, direction) in
+                before.cluster[..before.clustered].iter().chain([&(before.instance, before.towards)])
+            {
+                if instance != leaving.instance && leaving.clustered < CLUSTER {
+                    leaving.cluster[leaving.clustered] = (instance, direction);
+                    leaving.clustered += 1;
+                }
+            }
+        }
+        leaving
+    }
+
+    /// Number of the instance that is being left.
+    pub fn instance(&self) -> u32 {
+        self.instance
+    }
+
+    /// True if a crossing of another instance within the zone of doubt has still to be passed.
+    #[cold]
+    fn pending(&self, instance: u32, normal: Vector3D) -> bool {
+        let ahead = normal.dot(self.towards);
+        let known = self.cluster[..self.clustered].iter().rev().find(|(i, _)| *i == instance);
+        match known {
+            // It has been dealt with, and comes again only if the ray has turned back.
+            Some((_, direction)) => normal.dot(*direction) * ahead < 0.0,
+            None => normal.dot(self.arrived) * ahead > 0.0,
+        }
+    }
+}
+
+/// A compiled world: flat, immutable, shared by all threads.
+pub struct Scene<A: Attachment> {
+    /// The placed shapes, in the order of the tree.
+    pub instances: Vec<Instance<A>>,
+    /// What the attachments have made of them.
+    pub compiled: A::Compiled,
+    accelerator: Box<dyn Accelerator>,
+}
+
+impl<A: Attachment> std::fmt::Debug for Scene<A> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Scene({}, {:?})", self.accelerator.describe(), self.instances)
+    }
+}
+
+impl<A: Attachment> Scene<A> {
+    pub(crate) fn new(
+        instances: Vec<Instance<A>>,
+        compiled: A::Compiled,
+        acceleration: &crate::Acceleration,
+    ) -> Self {
+        let boxes: Vec<_> = instances.iter().map(|i| i.bounds).collect();
+        Self { instances, compiled, accelerator: acceleration.build(&boxes) }
+    }
+
+    /// The structure that finds what a ray may hit.
+    pub fn accelerator(&self) -> &dyn Accelerator {
+        &*self.accelerator
+    }
+
+    /// The nearest hit of a ray up to its `max_distance`. Among equals the lower instance number wins, so that the
+    /// answer does not depend on the acceleration.
+    pub fn hit(&self, ray: &Ray, leaving: Option<&Leaving>, scratch: &mut Scratch) -> Option<Candidate> {
+        let mut best: Option<Candidate> = None;
+        let prepared = TraversalRay::new(ray, leaving.map_or(0.0, |l| -l.zone));
+        self.accelerator.visit(&prepared, ray.max_distance, &mut |index, limit| {
+            let Some(crossing) = self.hit_instance(index, ray, leaving, limit, scratch) else { return limit };
+            let nearer = best.is_none_or(|b| {
+                crossing.distance < b.crossing.distance
+                    || (crossing.distance == b.crossing.distance && index < b.instance)
+            });
+            if nearer {
+                best = Some(Candidate { instance: index, crossing });
+            }
+            crossing.distance.min(limit)
+        });
+        best
+    }
+
+    /// The nearest hit of one instance alone, up to the distance `limit`.
+    #[inline]
+    pub fn hit_instance(
+        &self,
+        index: u32,
+        ray: &Ray,
+        leaving: Option<&Leaving>,
+        limit: f64,
+        scratch: &mut Scratch,
+    ) -> Option<Crossing> {
+        let instance = &self.instances[index as usize];
+        let Some(leaving) = leaving else {
+            return instance.primitive.hit(&instance.local(ray), Interval::new(0.0, limit), scratch);
+        };
+        if leaving.instance == index {
+            if instance.convex && !leaving.departure.inward {
+                return None;
+            }
+            return instance.primitive.hit_after(&instance.local(ray), &leaving.departure, limit, scratch);
+        }
+        let local = instance.local(ray);
+        let crossing = instance.primitive.hit(&local, Interval::new(-leaving.zone, limit), scratch)?;
+        if crossing.distance > leaving.zone {
+            return Some(crossing);
+        }
+        let normal = self.finish(ray, &Candidate { instance: index, crossing }).normal.as_vector();
+        if leaving.pending(index, normal) {
+            return Some(Crossing { distance: crossing.distance.max(0.0), ..crossing });
+        }
+        instance.primitive.hit(&local, Interval::new(leaving.zone.next_up(), limit), scratch)
+    }
+
+    /// True if an instance that `blocks` stands in the way of a ray before its `max_distance`.
+    pub fn is_blocked(
+        &self,
+        ray: &Ray,
+        leaving: Option<&Leaving>,
+        scratch: &mut Scratch,
+        blocks: impl Fn(u32) -> bool,
+    ) -> bool {
+        let mut blocked = false;
+        let prepared = TraversalRay::new(ray, leaving.map_or(0.0, |l| -l.zone));
+        self.accelerator.visit(&prepared, ray.max_distance, &mut |index, limit| {
+            if blocks(index) && self.hit_instance(index, ray, leaving, limit, scratch).is_some() {
+                blocked = true;
+                return f64::NEG_INFINITY;
+            }
+            limit
+        });
+        blocked
+    }
+
+    /// Everything about the surface at a hit.
+    pub fn finish(&self, ray: &Ray, hit: &Candidate) -> SurfacePoint {
+        let instance = &self.instances[hit.instance as usize];
+        let local = instance.primitive.surface(&instance.local(ray), &hit.crossing);
+        let point = instance.to_world.transform_point(local.point);
+        let upright = |n: Normal3D| instance.to_local.transform_normal_with_inverse(n).normalise_unchecked();
+        let normal = upright(local.normal);
+        let shading_normal =
+            if local.shading_normal == local.normal { normal } else { upright(local.shading_normal) };
+        let rounding = 16.0 * f64::EPSILON;
+        let reach = point.max_abs() + instance.stretch * local.point.max_abs() + instance.shift;
+        SurfacePoint {
+            instance: hit.instance,
+            point,
+            local_point: local.point,
+            normal,
+            shading_normal,
+            bound: instance.stretch * local.bound + rounding * reach,
+            distance: hit.crossing.distance,
+            exiting: hit.crossing.exiting,
+            feature: hit.crossing.feature,
+        }
+    }
+
+    /// A hit as the user of a world sees it.
+    pub fn intersection(&self, ray: &Ray, hit: &Candidate) -> Intersection {
+        let instance = &self.instances[hit.instance as usize];
+        let surface = self.finish(ray, hit);
+        Intersection { ray: *ray, node: instance.node, surface, to_local: instance.to_local, to_world: instance.to_world }
+    }
+
+    /// The instances that contain a point of the world, in ascending order.
+    pub fn containing(&self, point: Point3D, mut found: impl FnMut(u32)) {
+        self.accelerator.visit_containing(point, &mut |index| {
+            let instance = &self.instances[index as usize];
+            if instance.primitive.contains(instance.to_local.transform_point(point)) {
+                found(index);
+            }
+        });
+    }
+
+    /// Every crossing of every instance along a ray from its origin to its `max_distance`, in order.
+    pub fn crossings(&self, ray: &Ray, scratch: &mut Scratch) -> Vec<Candidate> {
+        let mut all = Vec::new();
+        let mut list = scratch.take();
+        let prepared = TraversalRay::new(ray, 0.0);
+        self.accelerator.visit(&prepared, ray.max_distance, &mut |index, limit| {
+            let instance = &self.instances[index as usize];
+            list.clear();
+            instance.primitive.crossings(&instance.local(ray), scratch, &mut list);
+            let ahead = list.iter().filter(|c| c.distance >= 0.0 && c.distance <= ray.max_distance);
+            all.extend(ahead.map(|&crossing| Candidate { instance: index, crossing }));
+            limit
+        });
+        all.sort_by(|a, b| {
+            a.crossing.distance.total_cmp(&b.crossing.distance).then(a.instance.cmp(&b.instance))
+        });
+        scratch.give_back(list);
+        all
+    }
+}
