@@ -33,7 +33,8 @@ pub trait Engine: Send + Sync {
 }
 
 fn guarded(item: usize, work: &Work<'_>) -> Result<Vec<f64>, EngineError> {
-    catch_unwind(AssertUnwindSafe(|| work(item))).map_err(|panic| EngineError::Panicked { item, message: text(&*panic) })
+    catch_unwind(AssertUnwindSafe(|| work(item)))
+        .map_err(|panic| EngineError::Panicked { item, message: text(&*panic) })
 }
 
 fn text(panic: &(dyn Any + Send)) -> String {

@@ -44,7 +44,8 @@ pub use engine::{Engine, Multicore, Serial};
 pub use error::{CoreError, EngineError};
 pub use intersection::Intersection;
 pub use primitive::{
-    Crossing, Departure, DirectionSample, Feature, Primitive, Scratch, Surface, SurfaceSample, SurfaceSampling,
+    Crossing, Departure, DirectionSample, Feature, Primitive, Scratch, Surface, SurfaceSample,
+    SurfaceSampling,
 };
 pub use ray::{Interval, Ray};
 pub use scene::{Candidate, Instance, Leaving, Scene, SurfacePoint};

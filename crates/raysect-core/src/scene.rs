@@ -3,7 +3,8 @@ use std::sync::Arc;
 
 use crate::accel::{Accelerator, TraversalRay};
 use crate::{
-    Attachment, BoundingBox3D, Crossing, Departure, Feature, Intersection, Interval, NodeId, Primitive, Ray, Scratch,
+    Attachment, BoundingBox3D, Crossing, Departure, Feature, Intersection, Interval, NodeId, Primitive, Ray,
+    Scratch,
 };
 
 /// A shape placed in the world, with what is attached to it.
@@ -310,7 +311,13 @@ impl<A: Attachment> Scene<A> {
     pub fn intersection(&self, ray: &Ray, hit: &Candidate) -> Intersection {
         let instance = &self.instances[hit.instance as usize];
         let surface = self.finish(ray, hit);
-        Intersection { ray: *ray, node: instance.node, surface, to_local: instance.to_local, to_world: instance.to_world }
+        Intersection {
+            ray: *ray,
+            node: instance.node,
+            surface,
+            to_local: instance.to_local,
+            to_world: instance.to_world,
+        }
     }
 
     /// The instances that contain a point of the world, in ascending order.

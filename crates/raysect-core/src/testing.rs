@@ -2,7 +2,9 @@
 
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D, Rng, Vector3D, rotate, translate};
 
-use crate::{BoundingBox3D, Crossing, Departure, Interval, Primitive, Ray, Scratch, Surface, SurfaceSampling};
+use crate::{
+    BoundingBox3D, Crossing, Departure, Interval, Primitive, Ray, Scratch, Surface, SurfaceSampling,
+};
 
 /// Tests a shape against the contract of [`Primitive`] with random rays about its bounding box.
 ///
@@ -151,7 +153,9 @@ impl Checker<'_> {
                 _ => false,
             };
             if !right {
-                return Err(format!("after {crossing:?} along {direction:?}: {next:?}, expected {expected:?}"));
+                return Err(format!(
+                    "after {crossing:?} along {direction:?}: {next:?}, expected {expected:?}"
+                ));
             }
         }
         Ok(())
@@ -181,7 +185,12 @@ impl Checker<'_> {
 }
 
 /// Sampled points lie on the surface, sampled directions meet it, and the densities integrate to one.
-fn check_sampling(shape: &dyn Primitive, bounds: &BoundingBox3D, rng: &mut Rng, count: usize) -> Result<(), String> {
+fn check_sampling(
+    shape: &dyn Primitive,
+    bounds: &BoundingBox3D,
+    rng: &mut Rng,
+    count: usize,
+) -> Result<(), String> {
     let sphere = bounds.enclosing_sphere();
     let from = sphere.centre + Vector3D::new(0.48, -0.64, 0.6) * (2.5 * sphere.radius);
     let mut scratch = Scratch::default();
@@ -240,13 +249,18 @@ fn check_sampling(shape: &dyn Primitive, bounds: &BoundingBox3D, rng: &mut Rng, 
                     return Err(format!("sampled point {:?} is not on the surface", s.point));
                 };
                 if surface.point.distance_to(s.point) > 1e-9 * sphere.radius && shape.is_convex() {
-                    return Err(format!("sampled point {:?} is hidden: first hit {:?}", s.point, surface.point));
+                    return Err(format!(
+                        "sampled point {:?} is hidden: first hit {:?}",
+                        s.point, surface.point
+                    ));
                 }
                 (direction, s.density, shape.surface_density(from, s.point, hit.feature))
             }
         };
         if (claimed / computed - 1.0).abs() > 1e-6 {
-            return Err(format!("sampled with density {claimed}, reported as {computed} along {direction:?}"));
+            return Err(format!(
+                "sampled with density {claimed}, reported as {computed} along {direction:?}"
+            ));
         }
     }
     Ok(())

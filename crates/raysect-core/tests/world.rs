@@ -134,7 +134,8 @@ fn every_acceleration_gives_the_same_hits() {
             .iter()
             .map(|w| {
                 let hit = w.hit(&ray).unwrap().map(|h| (h.surface.instance, h.distance().to_bits()));
-                let line: Vec<u64> = w.crossings(&ray).unwrap().iter().map(|c| c.distance().to_bits()).collect();
+                let line: Vec<u64> =
+                    w.crossings(&ray).unwrap().iter().map(|c| c.distance().to_bits()).collect();
                 let inside = w.contains(ray.origin).unwrap().len();
                 (hit, line, inside)
             })

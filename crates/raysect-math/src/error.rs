@@ -39,8 +39,16 @@ pub enum MathError {
         /// The bottom row that was given.
         row: [f64; 4],
     },
+    /// Arrays of different shapes cannot be merged cell by cell.
+    #[error("the arrays have the shapes {left:?} and {right:?} [cells]: they must be equal")]
+    ShapeMismatch {
+        /// Shape of the array that was to receive the other.
+        left: Vec<usize>,
+        /// Shape of the other array.
+        right: Vec<usize>,
+    },
     /// A parameter lies outside its range.
-    #[error("{name} = {value} {unit} is outside its range {range}")]
+    #[error("{name} = {value}{}{unit} is outside its range {range}", if unit.is_empty() { "" } else { " " })]
     OutOfRange {
         /// Name of the parameter.
         name: &'static str,

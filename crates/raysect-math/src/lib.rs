@@ -3,9 +3,13 @@
 
 mod affine;
 mod error;
+mod frame;
 mod normal;
 mod point;
+mod quadrature;
 mod random;
+pub mod sampling;
+mod stats;
 mod transform;
 mod triple;
 pub mod units;
@@ -13,9 +17,18 @@ mod vector;
 
 pub use affine::AffineMatrix3D;
 pub use error::MathError;
+pub use frame::Frame;
 pub use normal::Normal3D;
 pub use point::{Point2D, Point3D};
+pub use quadrature::integrate;
 pub use random::{Rng, StreamKey};
+pub use sampling::cone::{Cone, ConeCosineSampler, ConeUniformSampler};
+pub use sampling::disk::DiskSampler3D;
+pub use sampling::hemisphere::{HemisphereCosineSampler, HemisphereUniformSampler};
+pub use sampling::sphere::SphereSampler;
+pub use sampling::square::RectangleSampler3D;
+pub use sampling::triangle::TriangleSampler3D;
+pub use stats::{Statistics, StatisticsArray, format_with_error};
 pub use transform::{
     extract_rotation, extract_rotation_z_up, extract_translation, from_cylindrical, rotate, rotate_basis,
     rotate_vector, rotate_x, rotate_y, rotate_z, to_cylindrical, translate,

@@ -66,7 +66,9 @@ impl Vector3D {
         let length = self.length() * (1.0 - t) + other.length() * t;
         let across = b - a * a.dot(b);
         let side = if across.length() > 0.0 {
-            across.normalise()?
+            // Twice is enough: nearly parallel directions leave a first remainder that is not quite upright.
+            let across = across.normalise()?;
+            (across - a * a.dot(across)).normalise()?
         } else if a.dot(b) > 0.0 {
             return Ok(a * length);
         } else {

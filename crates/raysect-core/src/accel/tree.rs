@@ -88,7 +88,8 @@ impl Tree {
             }
             for cut in 1..BINS {
                 let side = |range: &[(BoundingBox3D, usize)]| {
-                    let (b, n) = range.iter().fold((BoundingBox3D::EMPTY, 0), |a, b| (a.0.union(&b.0), a.1 + b.1));
+                    let (b, n) =
+                        range.iter().fold((BoundingBox3D::EMPTY, 0), |a, b| (a.0.union(&b.0), a.1 + b.1));
                     (n, b.surface_area() * n as f64)
                 };
                 let ((lower, a), (upper, b)) = (side(&bins[..cut]), side(&bins[cut..]));
@@ -137,7 +138,8 @@ impl Accelerator for Tree {
                 continue;
             }
             let children = [node.first, node.first + 1];
-            let [a, b] = children.map(|c| ray.enter(&self.nodes[c as usize].bounds, limit).map(|near| (c, near)));
+            let [a, b] =
+                children.map(|c| ray.enter(&self.nodes[c as usize].bounds, limit).map(|near| (c, near)));
             let (nearer, farther) = match (a, b) {
                 (Some(a), Some(b)) if b.1 < a.1 => (Some(b), Some(a)),
                 (a, b) => (a, b),
@@ -179,7 +181,8 @@ mod tests {
     use raysect_math::{Rng, Vector3D};
 
     fn random_boxes(rng: &mut Rng, count: usize, flat: bool) -> Vec<BoundingBox3D> {
-        let mut corner = |scale: f64| Point3D::new(scale * rng.uniform(), scale * rng.uniform(), scale * rng.uniform());
+        let mut corner =
+            |scale: f64| Point3D::new(scale * rng.uniform(), scale * rng.uniform(), scale * rng.uniform());
         (0..count)
             .map(|_| {
                 let low = corner(10.0);

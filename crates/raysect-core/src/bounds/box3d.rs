@@ -65,7 +65,10 @@ impl BoundingBox3D {
         let pick = |f: fn(f64, f64) -> f64, a: Point3D, b: Point3D| {
             Point3D::new(f(a.x, b.x), f(a.y, b.y), f(a.z, b.z))
         };
-        Self { lower: pick(f64::min, self.lower, other.lower), upper: pick(f64::max, self.upper, other.upper) }
+        Self {
+            lower: pick(f64::min, self.lower, other.lower),
+            upper: pick(f64::max, self.upper, other.upper),
+        }
     }
 
     /// The box of the points in both; empty if they do not meet.
@@ -74,8 +77,10 @@ impl BoundingBox3D {
         let pick = |f: fn(f64, f64) -> f64, a: Point3D, b: Point3D| {
             Point3D::new(f(a.x, b.x), f(a.y, b.y), f(a.z, b.z))
         };
-        let common =
-            Self { lower: pick(f64::max, self.lower, other.lower), upper: pick(f64::min, self.upper, other.upper) };
+        let common = Self {
+            lower: pick(f64::max, self.lower, other.lower),
+            upper: pick(f64::min, self.upper, other.upper),
+        };
         if common.is_empty() { Self::EMPTY } else { common }
     }
 
@@ -158,7 +163,8 @@ impl BoundingBox3D {
         }
         let mut image = Self::around(self.vertices().map(|p| *m * p));
         let reach = self.lower.max_abs().max(self.upper.max_abs());
-        let size = |row: usize| (0..3).map(|c| m.get(row, c).abs()).sum::<f64>() * reach + m.get(row, 3).abs();
+        let size =
+            |row: usize| (0..3).map(|c| m.get(row, c).abs()).sum::<f64>() * reach + m.get(row, 3).abs();
         for axis in 0..3 {
             image.pad_axis(axis, 8.0 * f64::EPSILON * size(axis));
         }

@@ -25,7 +25,9 @@ pub trait Attachment: Send + Sync + Sized + 'static {
     ///
     /// # Errors
     /// Whatever makes the combination of shapes and attachments impossible.
-    fn compile(instances: &[Instance<Self>]) -> Result<Self::Compiled, Box<dyn std::error::Error + Send + Sync>>;
+    fn compile(
+        instances: &[Instance<Self>],
+    ) -> Result<Self::Compiled, Box<dyn std::error::Error + Send + Sync>>;
 }
 
 impl Attachment for () {
@@ -265,7 +267,13 @@ impl<A: Attachment> World<A> {
             let to_local = to_world
                 .inverse()
                 .map_err(|source| CoreError::Transform { name: self.label(index), source })?;
-            instances.push(Instance::new(primitive.clone(), attached.clone(), to_world, to_local, self.id(index)));
+            instances.push(Instance::new(
+                primitive.clone(),
+                attached.clone(),
+                to_world,
+                to_local,
+                self.id(index),
+            ));
         }
         let compiled = A::compile(&instances).map_err(CoreError::Compile)?;
         Ok(Scene::new(instances, compiled, &self.acceleration))

@@ -1,0 +1,143 @@
+//! CIE 1931 colour and sRGB.
+//!
+//! Tristimulus values are in units of the radiance: a flat spectrum of 1 W/m²/sr/nm has X = Y = Z = 1 to within
+//! 4e-4 (no factor of 683 lm/W), as in Raysect.
+
+use std::path::Path;
+use std::sync::OnceLock;
+
+use crate::library::table::columns;
+use crate::{InterpolatedSf, Slicing, SpectralTable, Spectrum};
+
+/// The integral of ȳ over the visible range [nm] by which Raysect divides the colour matching functions.
+const NORMALISATION: f64 = 106.8566;
+
+/// The colour matching functions x̄, ȳ, z̄ of the CIE 1931 2° observer at 1 nm (ISO 11664-1), divided by 106.8566,
+/// which is the integral of ȳ; zero outside 360 … 830 nm.
+#[doc(alias("ciexyz_x", "ciexyz_y", "ciexyz_z"))]
+pub fn cie_observer() -> &'static [SpectralTable; 3] {
+    static OBSERVER: OnceLock<[SpectralTable; 3]> = OnceLock::new();
+    OBSERVER.get_or_init(|| {
+        let [w, x, y, z] = built_in(include_str!("../data/colour/cie1931_2deg_1nm.csv"));
+        // Zero beyond the ends, where the table stops at 1e-4 and less.
+        let wavelengths: Vec<f64> =
+            [w[0] - 1.0].into_iter().chain(w.iter().copied()).chain([w[w.len() - 1] + 1.0]).collect();
+        [x, y, z].map(|values| {
+            let values: Vec<f64> =
+                [0.0].into_iter().chain(values.iter().map(|v| v / NORMALISATION)).chain([0.0]).collect();
+            proven(InterpolatedSf::new(wavelengths.clone(), values)).into()
+        })
+    })
+}
+
+/// The CIE standard illuminant D65 (ISO 11664-2), 300 … 830 nm at 5 nm, scaled to an average of 1 over 375 … 785 nm.
+///
+/// Its luminance is therefore Y = 1.134, not 1.
+pub fn d65_white() -> InterpolatedSf {
+    let [wavelengths, power] = built_in(include_str!("../data/illuminant/d65_5nm.csv"));
+    proven(InterpolatedSf::new(wavelengths, power)).scaled(1.0 / 87.1971)
+}
+
+/// Data files of this crate are read by its tests, so that reading them cannot fail later.
+fn built_in<const N: usize>(text: &str) -> [Vec<f64>; N] {
+    proven(columns(Path::new("built-in table"), text))
+}
+
+fn proven<T>(result: Result<T, crate::OpticalError>) -> T {
+    result.unwrap_or_else(|error| unreachable!("a data file of this crate: {error}"))
+}
+
+/// The averages of x̄, ȳ, z̄ over each bin.
+pub fn resample_ciexyz(slicing: &Slicing) -> Vec<[f64; 3]> {
+    let sampled = cie_observer().each_ref().map(|curve| {
+        curve.function().sample(slicing.min_wavelength(), slicing.max_wavelength(), slicing.bins())
+    });
+    (0..slicing.bins()).map(|i| [sampled[0][i], sampled[1][i], sampled[2][i]]).collect()
+}
+
+/// The tristimulus values of a spectrum.
+pub fn spectrum_to_ciexyz(spectrum: &Spectrum) -> [f64; 3] {
+    let mut xyz = [0.0; 3];
+    for (channel, curve) in cie_observer().iter().enumerate() {
+        let (low, high) = (spectrum.min_wavelength(), spectrum.max_wavelength());
+        let averages = curve.function().sample(low, high, spectrum.bins());
+        xyz[channel] =
+            averages.iter().zip(spectrum.samples()).map(|(c, s)| c * s).sum::<f64>() * spectrum.bin_width();
+    }
+    xyz
+}
+
+/// Chromaticity x, y and luminance Y of tristimulus values; black has the chromaticity of equal energy, ⅓, ⅓.
+pub fn ciexyz_to_ciexyy([x, y, z]: [f64; 3]) -> [f64; 3] {
+    let sum = x + y + z;
+    if sum == 0.0 { [1.0 / 3.0, 1.0 / 3.0, 0.0] } else { [x / sum, y / sum, y] }
+}
+
+/// Tristimulus values of a chromaticity x, y and luminance Y; black for y = 0, which no colour has.
+pub fn ciexyy_to_ciexyz([x, y, luminance]: [f64; 3]) -> [f64; 3] {
+    if y == 0.0 { [0.0; 3] } else { [luminance / y * x, luminance, luminance / y * (1.0 - x - y)] }
+}
+
+/// The matrices of IEC 61966-2-1 for the primaries of sRGB under D65.
+const TO_RGB: [[f64; 3]; 3] = [
+    [3.2404542, -1.5371385, -0.4985314],
+    [-0.969266, 1.8760108, 0.041556],
+    [0.0556434, -0.2040259, 1.0572252],
+];
+const TO_XYZ: [[f64; 3]; 3] =
+    [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.072175], [0.0193339, 0.119192, 0.9503041]];
+
+fn apply(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+    matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
+}
+
+/// sRGB values in 0 … 1 of tristimulus values with white at Y = 1; out of gamut is clipped.
+pub fn ciexyz_to_srgb(xyz: [f64; 3]) -> [f64; 3] {
+    apply(&TO_RGB, xyz).map(|v| {
+        let encoded = if v <= 0.0031308 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
+        encoded.clamp(0.0, 1.0)
+    })
+}
+
+/// Tristimulus values of sRGB values.
+pub fn srgb_to_ciexyz(rgb: [f64; 3]) -> [f64; 3] {
+    apply(&TO_XYZ, rgb.map(|v| if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flat_spectrum_is_one_in_every_channel() {
+        let flat = Spectrum::from_samples(360.0, 830.0, vec![1.0; 470]).unwrap();
+        for v in spectrum_to_ciexyz(&flat) {
+            assert!((v - 1.0).abs() < 4e-4, "{v}");
+        }
+    }
+
+    #[test]
+    fn d65_is_white() {
+        let d65 = d65_white();
+        assert!((d65.average(375.0, 785.0) - 1.0).abs() < 1e-6);
+        let s = Spectrum::from_samples(375.0, 785.0, d65.sample(375.0, 785.0, 410)).unwrap();
+        let xyz = spectrum_to_ciexyz(&s);
+        let [x, y, luminance] = ciexyz_to_ciexyy(xyz);
+        assert!((x - 0.31272).abs() < 1e-4 && (y - 0.32903).abs() < 1e-4, "{x} {y}");
+        assert!((luminance - 1.13407).abs() < 2e-3);
+        for v in ciexyz_to_srgb(xyz.map(|v| v / luminance)) {
+            assert!((v - 1.0).abs() < 5e-4, "{v}");
+        }
+    }
+
+    #[test]
+    fn colours_come_back() {
+        for rgb in [[0.2, 0.5, 0.9], [0.01, 0.02, 0.0], [1.0, 1.0, 1.0]] {
+            let back = ciexyz_to_srgb(srgb_to_ciexyz(rgb));
+            assert!(rgb.iter().zip(back).all(|(a, b)| (a - b).abs() < 1e-5), "{rgb:?} {back:?}");
+        }
+        let xyz = ciexyy_to_ciexyz([0.3, 0.4, 2.0]);
+        assert!(ciexyz_to_ciexyy(xyz).iter().zip([0.3, 0.4, 2.0]).all(|(a, b)| (a - b).abs() < 1e-15));
+        assert_eq!((ciexyz_to_srgb([-1.0, 0.0, 9.0])[2], ciexyy_to_ciexyz([0.3, 0.0, 1.0])), (1.0, [0.0; 3]));
+    }
+}

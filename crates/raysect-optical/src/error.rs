@@ -1,0 +1,103 @@
+use std::path::PathBuf;
+
+use raysect_core::CoreError;
+use raysect_math::MathError;
+use thiserror::Error;
+
+/// What can go wrong with spectra, materials and paths.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum OpticalError {
+    /// The scene or a ray is wrong.
+    #[error(transparent)]
+    Core(#[from] CoreError),
+    /// A parameter lies outside its range.
+    #[error(transparent)]
+    Math(#[from] MathError),
+    /// A table of wavelengths and values is not usable.
+    #[error("spectral table, entry {index} ({wavelength} nm, {value}): {what}")]
+    Table {
+        /// Number of the entry, counted from 0.
+        index: usize,
+        /// Its wavelength [nm].
+        wavelength: f64,
+        /// Its value.
+        value: f64,
+        /// What is wrong.
+        what: &'static str,
+    },
+    /// A table has too few entries or columns of different lengths.
+    #[error("a spectral table of {wavelengths} wavelengths and {values} values: {what}")]
+    TableShape {
+        /// How many wavelengths.
+        wavelengths: usize,
+        /// How many values.
+        values: usize,
+        /// What is wrong.
+        what: &'static str,
+    },
+    /// A file of data cannot be read.
+    #[error("{}: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A line of a data file is not what it should be.
+    #[error("{}, line {line}: {what}", path.display())]
+    Line {
+        /// The file, or the name of the built-in table.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: usize,
+        /// What is wrong.
+        what: String,
+    },
+    /// The wavelength range or its division is impossible.
+    #[error("{bins} bins in {slices} slices over {min} … {max} nm: {what}")]
+    Slicing {
+        /// Number of bins.
+        bins: usize,
+        /// Number of slices.
+        slices: usize,
+        /// Lower limit [nm].
+        min: f64,
+        /// Upper limit [nm].
+        max: f64,
+        /// What is wrong.
+        what: &'static str,
+    },
+    /// A refractive index that no medium has.
+    #[error(
+        "the refractive index of {material} is {value} between {min} and {max} nm: it must be positive and finite there"
+    )]
+    Index {
+        /// The material.
+        material: String,
+        /// The index found.
+        value: f64,
+        /// Lower end of the bin [nm].
+        min: f64,
+        /// Upper end of the bin [nm].
+        max: f64,
+    },
+    /// A material that fills a volume on a shape that has none.
+    #[error(
+        "{material} fills a volume, but {shape} encloses none: give the shape a thickness, or a surface material"
+    )]
+    NoVolume {
+        /// The material.
+        material: String,
+        /// The shape.
+        shape: String,
+    },
+    /// A glass that the library does not have.
+    #[error("no Schott glass '{name}' in the library; it has {known}")]
+    UnknownGlass {
+        /// The name that was asked for.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
+}

@@ -1,0 +1,151 @@
+use raysect_core::{BoundingSphere3D, Instance, SurfacePoint, SurfaceSampling};
+use raysect_math::{Normal3D, Point3D, Rng, Vector3D};
+
+use crate::{Optics, Scene};
+
+/// An emitting surface that is sampled by its shape.
+#[derive(Debug, Clone, Copy)]
+pub struct Light {
+    /// Its instance in the scene.
+    pub instance: u32,
+    sampling: SurfaceSampling,
+    sphere: BoundingSphere3D,
+    importance: f64,
+    /// Volume of the image of a unit cube: what areas scale with, together with the normal.
+    volume_scale: f64,
+}
+
+/// A direction drawn towards a light.
+#[derive(Debug, Clone, Copy)]
+pub struct LightSample {
+    /// Number of the light.
+    pub light: u32,
+    /// Unit vector from the shading point.
+    pub direction: Vector3D,
+    /// Density of the choice, that of the light included [1/sr].
+    pub density: f64,
+    /// Distance to the point that was drawn [m]; infinite where only a direction was.
+    pub distance: f64,
+}
+
+impl Light {
+    pub(crate) fn new(
+        index: u32,
+        instance: &Instance<Optics>,
+        sphere: BoundingSphere3D,
+        importance: f64,
+    ) -> Self {
+        Self {
+            instance: index,
+            sampling: instance.primitive.surface_sampling(),
+            sphere,
+            importance,
+            volume_scale: instance.to_world.determinant().abs(),
+        }
+    }
+
+    /// How much of the light sampling at a point goes to this light: its importance times the square of the angle
+    /// under which it appears. A light that encloses the point is left to the directions of the surface.
+    fn weight(&self, scene: &Scene, from: Point3D) -> f64 {
+        let distance = from.vector_to(self.sphere.centre).length_squared();
+        let radius = self.sphere.radius * self.sphere.radius;
+        if distance > radius {
+            return self.importance * radius / distance;
+        }
+        let instance = &scene.instances[self.instance as usize];
+        if instance.primitive.contains(instance.to_local.transform_point(from)) {
+            0.0
+        } else {
+            self.importance
+        }
+    }
+
+    /// World area of the image of a unit of local area with a given unit normal.
+    fn area_scale(&self, instance: &Instance<Optics>, normal: Normal3D) -> f64 {
+        self.volume_scale * instance.to_local.transform_normal_with_inverse(normal).length()
+    }
+
+    fn sample(&self, scene: &Scene, from: Point3D, rng: &mut Rng) -> Option<(Vector3D, f64, f64)> {
+        let instance = &scene.instances[self.instance as usize];
+        let local_from = instance.to_local.transform_point(from);
+        if self.sampling == SurfaceSampling::SolidAngle {
+            let s = instance.primitive.sample_direction(local_from, [rng.uniform(), rng.uniform()])?;
+            let direction = instance.to_world.transform_vector(s.direction).normalise_unchecked();
+            return Some((direction, s.density, f64::INFINITY));
+        }
+        let u = [rng.uniform(), rng.uniform(), rng.uniform()];
+        let s = instance.primitive.sample_surface(local_from, u)?;
+        let to = from.vector_to(instance.to_world.transform_point(s.point));
+        let squared = to.length_squared();
+        let distance = squared.sqrt();
+        let direction = to * (1.0 / distance);
+        let normal = instance.to_local.transform_normal_with_inverse(s.normal);
+        let stretched = normal.length();
+        let cosine = normal.dot(direction).abs() / stretched;
+        if cosine == 0.0 || distance == 0.0 {
+            return None;
+        }
+        Some((direction, s.density / (self.volume_scale * stretched) * squared / cosine, distance))
+    }
+
+    /// Density [1/sr] with which a surface point on the light is found by sampling from a point.
+    fn density(&self, scene: &Scene, from: Point3D, direction: Vector3D, surface: &SurfacePoint) -> f64 {
+        let instance = &scene.instances[self.instance as usize];
+        let local_from = instance.to_local.transform_point(from);
+        if self.sampling == SurfaceSampling::SolidAngle {
+            let local = instance.to_local.transform_vector(direction).normalise_unchecked();
+            return instance.primitive.direction_density(local_from, local);
+        }
+        let cosine = surface.normal.dot(direction).abs();
+        let local = instance.primitive.surface_density(local_from, surface.local_point, surface.feature);
+        if local == 0.0 || cosine == 0.0 {
+            return 0.0;
+        }
+        // The local unit normal is the image of the world's, brought back to length one.
+        let local_normal =
+            instance.to_world.transform_normal_with_inverse(surface.normal).normalise_unchecked();
+        let squared = from.vector_to(surface.point).length_squared();
+        local / self.area_scale(instance, local_normal) * squared / cosine
+    }
+}
+
+/// Draws a light and a direction towards it; none if no light can be sampled from there.
+pub(crate) fn sample_lights(scene: &Scene, from: Point3D, rng: &mut Rng) -> Option<LightSample> {
+    let lights = &scene.compiled.lights;
+    let total: f64 = lights.iter().map(|l| l.weight(scene, from)).sum();
+    if total.is_nan() || total <= 0.0 {
+        return None;
+    }
+    let mut chosen = None;
+    let mut rest = if lights.len() > 1 { rng.uniform() * total } else { 0.0 };
+    for (index, light) in lights.iter().enumerate() {
+        let weight = light.weight(scene, from);
+        if weight > 0.0 {
+            chosen = Some((index, weight));
+            rest -= weight;
+            if rest <= 0.0 {
+                break;
+            }
+        }
+    }
+    let (index, weight) = chosen?;
+    let (direction, density, distance) = lights[index].sample(scene, from, rng)?;
+    Some(LightSample { light: index as u32, direction, density: density * weight / total, distance })
+}
+
+/// Density [1/sr] with which [`sample_lights`] finds a point on a light.
+pub(crate) fn light_density(
+    scene: &Scene,
+    light: u32,
+    from: Point3D,
+    direction: Vector3D,
+    surface: &SurfacePoint,
+) -> f64 {
+    let lights = &scene.compiled.lights;
+    let weight = lights[light as usize].weight(scene, from);
+    if weight == 0.0 {
+        return 0.0;
+    }
+    let total: f64 = lights.iter().map(|l| l.weight(scene, from)).sum();
+    weight / total * lights[light as usize].density(scene, from, direction, surface)
+}

@@ -1,0 +1,86 @@
+//! What a compiled optical scene knows: who emits, what paths are aimed at, who fills volumes.
+
+mod light;
+mod targets;
+
+use raysect_core::{Instance, SurfaceSampling};
+
+pub use light::{Light, LightSample};
+pub(crate) use light::{light_density, sample_lights};
+pub use targets::Targets;
+
+use crate::{Facts, Optics};
+
+/// What the integrator asks of an instance at every hit.
+#[derive(Debug, Clone, Copy)]
+pub struct InstanceFacts {
+    /// True if the surface emits.
+    pub emits: bool,
+    /// True if every ray passes straight on.
+    pub transparent: bool,
+    /// True if something fills the volume.
+    pub has_medium: bool,
+    /// Number among the lights, if the surface is sampled as one.
+    pub light: Option<u32>,
+}
+
+/// The facts of all instances of a scene, compiled with it.
+#[derive(Debug)]
+pub struct Illumination {
+    /// By instance.
+    pub facts: Vec<InstanceFacts>,
+    /// The emitting surfaces that are sampled by their shape.
+    pub lights: Vec<Light>,
+    /// What else is important: aimed at through bounding spheres, in the directional density.
+    pub targets: Targets,
+    /// Everything important, lights included: what Raysect aims at.
+    pub all_targets: Targets,
+    /// True if a surface lets rays pass straight on.
+    pub any_transparent: bool,
+    /// True if something fills a volume.
+    pub any_medium: bool,
+    /// True if something refracts by wavelength.
+    pub any_dispersion: bool,
+    /// What each instance calls its material.
+    pub names: Vec<String>,
+}
+
+impl Illumination {
+    pub(crate) fn compile(instances: &[Instance<Optics>]) -> Self {
+        let known: Vec<Facts> = instances.iter().map(|i| i.attached.material().facts()).collect();
+        let (mut lights, mut facts) = (Vec::new(), Vec::new());
+        let (mut targets, mut all_targets) = (Vec::new(), Vec::new());
+        for (index, (instance, known)) in instances.iter().zip(&known).enumerate() {
+            let important = known.importance > 0.0;
+            let sampled = match (instance.primitive.surface_sampling(), instance.similarity) {
+                (SurfaceSampling::None, _) | (SurfaceSampling::SolidAngle, None) => false,
+                _ => known.emits && important,
+            };
+            if important {
+                let sphere = instance.primitive.bounding_sphere(&instance.to_world);
+                all_targets.push((sphere, known.importance));
+                if sampled {
+                    lights.push(Light::new(index as u32, instance, sphere, known.importance));
+                } else {
+                    targets.push((sphere, known.importance));
+                }
+            }
+            facts.push(InstanceFacts {
+                emits: known.emits,
+                transparent: known.transparent,
+                has_medium: instance.attached.material().medium().is_some(),
+                light: sampled.then(|| lights.len() as u32 - 1),
+            });
+        }
+        Self {
+            any_transparent: facts.iter().any(|f| f.transparent),
+            any_medium: facts.iter().any(|f| f.has_medium),
+            any_dispersion: known.iter().any(|f| f.disperses),
+            names: known.into_iter().map(|f| f.name).collect(),
+            facts,
+            lights,
+            targets: Targets::new(targets),
+            all_targets: Targets::new(all_targets),
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! What surfaces and volumes do to light.
+
+mod absorbing;
+mod bsdf;
+mod checkerboard;
+mod dielectric;
+mod emitter;
+mod lambert;
+mod medium;
+mod null;
+mod surface_hit;
+
+use std::sync::Arc;
+
+pub use absorbing::AbsorbingSurface;
+pub use bsdf::Bsdf;
+pub use checkerboard::Checkerboard;
+pub use dielectric::Dielectric;
+pub use emitter::UniformSurfaceEmitter;
+pub use lambert::Lambert;
+pub use medium::{Coefficients, Medium, MediumPoint, Refraction};
+pub use null::NullMaterial;
+pub use surface_hit::SurfaceHit;
+
+use raysect_math::Vector3D;
+
+use crate::{OpticalError, Path, Slice};
+
+/// What is known at a surface besides the hit: small, copied freely, and independent of the path.
+#[derive(Debug, Clone, Copy)]
+pub struct Context<'a> {
+    /// The bins that the path carries, with their tables.
+    pub slice: &'a Slice,
+    /// Refractive index on the side from which the path arrives.
+    pub index_in: f64,
+    /// Refractive index on the other side.
+    pub index_out: f64,
+    /// The wavelength that stands for the path where something disperses [nm].
+    pub wavelength: f64,
+}
+
+/// How a path goes on from a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Scatter {
+    /// It ends.
+    Absorbed,
+    /// It goes straight on, as if the surface were not there.
+    PassThrough,
+    /// It goes on along a unit vector in world space, on whichever side of the surface that lies.
+    Continue {
+        /// Where to.
+        direction: Vector3D,
+    },
+}
+
+/// What a scene wants to know about a material before any ray is traced.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Facts {
+    /// What to call it in messages and in `plan`.
+    pub name: String,
+    /// How much paths are to be aimed at what carries it, relative to others; 0 for not at all.
+    pub importance: f64,
+    /// True if the surface emits.
+    pub emits: bool,
+    /// True if the surface lets every ray pass straight on, also those that look for a light.
+    pub transparent: bool,
+    /// True if its refraction depends on the wavelength.
+    pub disperses: bool,
+}
+
+impl Facts {
+    /// The facts of an opaque, dark surface.
+    pub fn named(name: impl Into<String>) -> Self {
+        Self { name: name.into(), importance: 0.0, emits: false, transparent: false, disperses: false }
+    }
+}
+
+/// What a surface and the volume behind it do to light.
+///
+/// Only [`surface`](Self::surface) must be given:
+///
+/// ```
+/// use raysect_optical::{Facts, Material, Path, Scatter, SurfaceHit};
+///
+/// /// A perfect mirror.
+/// struct Mirror;
+///
+/// impl Material for Mirror {
+///     fn surface(&self, hit: &SurfaceHit, _: &mut Path) -> Scatter {
+///         Scatter::Continue { direction: hit.mirrored() }
+///     }
+///     fn facts(&self) -> Facts {
+///         Facts::named("mirror")
+///     }
+/// }
+/// ```
+pub trait Material: Send + Sync + 'static {
+    /// Writes the radiance [W/m²/sr/nm] that leaves the hit towards where the path comes from into `out`, one value
+    /// a bin; `false` for none (then `out` is not looked at). It has no side effect and follows no path: light
+    /// sampling asks the same question. Set [`Facts::emits`] to be asked at all.
+    fn emit(&self, _hit: &SurfaceHit, _at: Context<'_>, _out: &mut [f64]) -> bool {
+        false
+    }
+
+    /// Says how a path goes on, and multiplies its throughput. It never emits. A material that scatters into a
+    /// range of directions implements [`Bsdf`] and answers with [`Path::scatter`].
+    fn surface(&self, hit: &SurfaceHit, path: &mut Path<'_>) -> Scatter;
+
+    /// What fills the volume behind the surface.
+    fn medium(&self) -> Option<&dyn Medium> {
+        None
+    }
+
+    /// What a scene wants to know about it.
+    fn facts(&self) -> Facts {
+        Facts::named(short_name(std::any::type_name::<Self>()))
+    }
+
+    /// Refuses a range of wavelengths that it cannot describe.
+    ///
+    /// # Errors
+    /// What is wrong there.
+    fn check(&self, _slice: &Slice) -> Result<(), OpticalError> {
+        Ok(())
+    }
+}
+
+pub(crate) fn short_name(full: &'static str) -> &'static str {
+    full.rsplit("::").next().unwrap_or(full)
+}
+
+impl<M: Material + ?Sized> Material for Arc<M> {
+    fn emit(&self, hit: &SurfaceHit, at: Context<'_>, out: &mut [f64]) -> bool {
+        (**self).emit(hit, at, out)
+    }
+    fn surface(&self, hit: &SurfaceHit, path: &mut Path<'_>) -> Scatter {
+        (**self).surface(hit, path)
+    }
+    fn medium(&self) -> Option<&dyn Medium> {
+        (**self).medium()
+    }
+    fn facts(&self) -> Facts {
+        (**self).facts()
+    }
+    fn check(&self, slice: &Slice) -> Result<(), OpticalError> {
+        (**self).check(slice)
+    }
+}

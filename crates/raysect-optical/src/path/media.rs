@@ -1,0 +1,227 @@
+//! The media that a path is in, and what they do to it.
+
+use raysect_core::{Ray, SurfacePoint};
+use raysect_math::Point3D;
+
+use super::Path;
+use crate::{Coefficients, Medium, MediumPoint, Refraction, SurfaceHit};
+
+/// Instances whose volumes overlap at one place.
+const CAPACITY: usize = 16;
+
+/// The instances that fill the space around a path: a short list without allocation.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct MediaList {
+    instances: [u32; CAPACITY],
+    count: usize,
+}
+
+impl MediaList {
+    #[inline]
+    pub(super) fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    fn as_slice(&self) -> &[u32] {
+        &self.instances[..self.count]
+    }
+
+    fn contains(&self, instance: u32) -> bool {
+        self.as_slice().contains(&instance)
+    }
+
+    /// `false` if it is in the list already, or the list is full.
+    fn insert(&mut self, instance: u32) -> bool {
+        if self.contains(instance) || self.count == CAPACITY {
+            return false;
+        }
+        self.instances[self.count] = instance;
+        self.count += 1;
+        true
+    }
+
+    /// `false` if it is not in the list.
+    fn remove(&mut self, instance: u32) -> bool {
+        let Some(place) = self.as_slice().iter().position(|&i| i == instance) else { return false };
+        self.instances.copy_within(place + 1..self.count, place);
+        self.count -= 1;
+        true
+    }
+}
+
+impl<'a> Path<'a> {
+    /// Finds the media around the origin of a path.
+    pub(super) fn surround(&mut self, origin: Point3D) {
+        if !self.scene.compiled.any_medium {
+            return;
+        }
+        if let Some((known, media)) = self.start.filter(|(known, _)| *known == origin) {
+            self.start = Some((known, media));
+            self.media = media;
+            return;
+        }
+        let (facts, mut media, mut fits) = (&self.scene.compiled.facts, MediaList::default(), true);
+        self.scene.containing(origin, |i| fits &= !facts[i as usize].has_medium || media.insert(i));
+        self.ledger.inconsistencies += u64::from(!fits);
+        self.start = Some((origin, media));
+        self.media = media;
+    }
+
+    fn medium(&self, instance: u32) -> Option<&'a dyn Medium> {
+        let scene = self.scene;
+        scene.instances[instance as usize].attached.material().medium()
+    }
+
+    /// The refracting medium that counts among those of a list, without one of them.
+    fn refracting(&self, media: &MediaList, without: Option<u32>) -> Option<(u32, &'a Refraction)> {
+        let others = media.as_slice().iter().filter(|i| Some(**i) != without);
+        let all = others.filter_map(|&i| self.medium(i).and_then(|m| m.refraction()).map(|r| (i, r)));
+        all.max_by_key(|(i, r)| (r.priority, *i))
+    }
+
+    /// The indices before and behind a surface of a refracting solid; none if another medium hides the surface.
+    fn interface(&self, media: &MediaList, surface: &SurfacePoint) -> Option<(f64, f64)> {
+        let own = self.medium(surface.instance).and_then(|m| m.refraction())?;
+        let other = self.refracting(media, Some(surface.instance));
+        let hidden = other.is_some_and(|(i, r)| (r.priority, i) > (own.priority, surface.instance));
+        if hidden {
+            return None;
+        }
+        let inside = self.slice.mean(&own.index);
+        let outside = self.slice.mean(other.map_or(&own.external_index, |(_, r)| &r.index));
+        Some(if surface.exiting { (inside, outside) } else { (outside, inside) })
+    }
+
+    fn refracts(&self, instance: u32) -> bool {
+        self.medium(instance).is_some_and(|m| m.refraction().is_some())
+    }
+
+    /// True unless the surface belongs to a refracting solid and is hidden by a medium of higher priority.
+    pub(super) fn is_interface(&self, media: &MediaList, surface: &SurfacePoint) -> bool {
+        !self.refracts(surface.instance) || self.interface(media, surface).is_some()
+    }
+
+    /// Notes the indices at a surface; `false` if there is nothing to be met, since another medium hides it.
+    pub(super) fn enter_interface(&mut self, at: &SurfaceHit) -> bool {
+        let compiled = &self.scene.compiled;
+        if !compiled.any_medium {
+            return true;
+        }
+        if !compiled.facts[at.surface.instance as usize].has_medium || !self.refracts(at.surface.instance) {
+            let here = self.refracting(&self.media, None).map_or(1.0, |(_, r)| self.slice.mean(&r.index));
+            self.indices = (here, here);
+            return true;
+        }
+        match self.interface(&self.media, &at.surface) {
+            Some(indices) => {
+                self.indices = indices;
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// Follows the path through a surface, into or out of what lies behind it.
+    pub(super) fn change_medium(&mut self, surface: &SurfacePoint) {
+        let mut media = self.media;
+        let consistent = self.change_list(&mut media, surface);
+        self.ledger.inconsistencies += u64::from(!consistent);
+        self.media = media;
+    }
+
+    pub(super) fn change_list(&self, media: &mut MediaList, surface: &SurfacePoint) -> bool {
+        if !self.scene.compiled.facts[surface.instance as usize].has_medium {
+            return true;
+        }
+        if surface.exiting { media.remove(surface.instance) } else { media.insert(surface.instance) }
+    }
+
+    /// Adds up the coefficients of the media of a list, with emission in `emitted`; of the refracting ones only that
+    /// which counts.
+    fn add_up(&mut self, media: &MediaList, ray: &Ray, distance: f64) {
+        let counts = self.refracting(media, None).map(|(i, _)| i);
+        let at = MediumPoint {
+            point: ray.point_at(0.5 * distance),
+            direction: -ray.direction,
+            at: self.context(),
+        };
+        let (mut emission, mut attenuation) =
+            (std::mem::take(&mut self.emitted), std::mem::take(&mut self.attenuation));
+        emission.fill(0.0);
+        attenuation.fill(0.0);
+        for &instance in media.as_slice() {
+            if let Some(medium) = self.medium(instance) {
+                if medium.refraction().is_none() || counts == Some(instance) {
+                    let mut out = Coefficients { emission: &mut emission, attenuation: &mut attenuation };
+                    medium.coefficients(&at, &mut out);
+                }
+            }
+        }
+        (self.emitted, self.attenuation) = (emission, attenuation);
+    }
+
+    /// Solves dL/ds = j − α L along a piece of the path, exactly.
+    pub(super) fn cross_media(&mut self, ray: &Ray, distance: f64) {
+        if distance == 0.0 {
+            return;
+        }
+        if distance.is_infinite() {
+            // Volumes are closed: a ray that leaves one without a surface has lost its way.
+            self.ledger.lost += 1;
+            return;
+        }
+        let media = self.media;
+        self.add_up(&media, ray, distance);
+        for i in 0..self.throughput.len() {
+            let (emission, attenuation) = (self.emitted[i], self.attenuation[i]);
+            if emission != 0.0 {
+                self.radiance[i] += self.throughput[i] * emission * effective_length(attenuation, distance);
+            }
+            if attenuation != 0.0 {
+                self.throughput[i] *= (-attenuation * distance).exp();
+            }
+        }
+    }
+
+    /// Reduces `reflected` by what the media of a list let through.
+    pub(super) fn attenuate_shadow(&mut self, media: &MediaList, ray: &Ray, distance: f64) {
+        if media.is_empty() || distance == 0.0 {
+            return;
+        }
+        self.add_up(media, ray, distance);
+        for (f, attenuation) in self.reflected.iter_mut().zip(&self.attenuation) {
+            if *attenuation != 0.0 {
+                *f *= (-attenuation * distance).exp();
+            }
+        }
+    }
+}
+
+/// ∫₀ˢ exp(−α t) dt = (1 − exp(−α s)) / α, right down to α = 0.
+fn effective_length(attenuation: f64, distance: f64) -> f64 {
+    let depth = attenuation * distance;
+    if depth == 0.0 { distance } else { -(-depth).exp_m1() / attenuation }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_know_what_they_hold() {
+        let mut list = MediaList::default();
+        assert!(list.insert(3) && list.insert(5) && list.insert(7) && !list.insert(5));
+        assert!(list.remove(5) && !list.remove(5));
+        assert_eq!(list.as_slice(), [3, 7]);
+        (10..24).for_each(|i| assert!(list.insert(i)));
+        assert!(!list.insert(99) && list.remove(3));
+    }
+
+    #[test]
+    fn effective_lengths_have_their_limits() {
+        assert_eq!(effective_length(0.0, 2.0), 2.0);
+        assert!((effective_length(1e-12, 2.0) - 2.0).abs() < 1e-11);
+        assert!((effective_length(3.0, 2.0) - (1.0 - (-6.0f64).exp()) / 3.0).abs() < 1e-16);
+        assert_eq!(effective_length(f64::INFINITY, 2.0), 0.0);
+    }
+}

@@ -1,0 +1,159 @@
+//! Scattering into a range of directions: light sampling, important directions and roulette for every material.
+
+use raysect_core::{Leaving, Ray, SurfacePoint};
+use raysect_math::{Frame, Vector3D};
+
+use super::{LightSampling, Path, heuristic, unit};
+use crate::illumination::{LightSample, Targets, sample_lights};
+use crate::{Bsdf, Scatter, SurfaceHit};
+
+impl Path<'_> {
+    /// Scatters at a surface: looks for a light, then chooses where to go on.
+    ///
+    /// The directions of the surface and those towards important things form one density; multiple importance
+    /// sampling weighs it against the density of light sampling.
+    pub fn scatter<B: Bsdf + ?Sized>(&mut self, bsdf: &B, hit: &SurfaceHit) -> Scatter {
+        let frame = hit.frame();
+        let incoming = frame.to_local(-hit.direction);
+        let at = self.context();
+        if self.settings.light_sampling == LightSampling::Lights && !self.scene.compiled.lights.is_empty() {
+            if let Some(light) = sample_lights(self.scene, hit.surface.point, &mut self.rng) {
+                let outgoing = frame.to_local(light.direction);
+                bsdf.evaluate(incoming, outgoing, at, &mut self.reflected);
+                if self.reflected.iter().any(|f| *f > 0.0) {
+                    let density = self.directional_density(bsdf, hit, incoming, outgoing, light.direction);
+                    self.add_light(hit, &light, density);
+                }
+            }
+        }
+        let (outgoing, direction) = self.choose(bsdf, hit, &frame, incoming);
+        let density = self.directional_density(bsdf, hit, incoming, outgoing, direction);
+        if density.is_nan() || density <= 0.0 {
+            return Scatter::Absorbed;
+        }
+        bsdf.evaluate(incoming, outgoing, at, &mut self.reflected);
+        let inverse = 1.0 / density;
+        self.throughput.iter_mut().zip(&self.reflected).for_each(|(t, f)| *t *= f * inverse);
+        self.density = Some(density);
+        Scatter::Continue { direction }
+    }
+
+    /// What scattered paths are aimed at besides sampled lights, if anything.
+    #[inline]
+    fn targets(&self) -> Option<&Targets> {
+        let compiled = &self.scene.compiled;
+        let targets = match self.settings.light_sampling {
+            LightSampling::Lights => &compiled.targets,
+            LightSampling::BoundingSpheres => &compiled.all_targets,
+            LightSampling::Off => return None,
+        };
+        (!targets.is_empty() && self.settings.important_path_weight > 0.0).then_some(targets)
+    }
+
+    #[inline]
+    fn choose<B: Bsdf + ?Sized>(
+        &mut self,
+        bsdf: &B,
+        hit: &SurfaceHit,
+        frame: &Frame,
+        incoming: Vector3D,
+    ) -> (Vector3D, Vector3D) {
+        if self.targets().is_some() && self.rng.probability(self.settings.important_path_weight) {
+            let mut rng = self.rng.clone();
+            let direction = self.targets().map(|t| t.sample(hit.surface.point, &mut rng));
+            self.rng = rng;
+            if let Some(direction) = direction {
+                return (frame.to_local(direction), unit(direction));
+            }
+        }
+        let outgoing = bsdf.sample(incoming, self.context(), &mut self.rng);
+        (outgoing, unit(frame.to_world(outgoing)))
+    }
+
+    /// Density [1/sr] of [`choose`](Self::choose).
+    #[inline]
+    fn directional_density<B: Bsdf + ?Sized>(
+        &self,
+        bsdf: &B,
+        hit: &SurfaceHit,
+        incoming: Vector3D,
+        outgoing: Vector3D,
+        direction: Vector3D,
+    ) -> f64 {
+        let own = bsdf.pdf(incoming, outgoing, self.context());
+        match self.targets() {
+            None => own,
+            Some(targets) => {
+                let weight = self.settings.important_path_weight;
+                weight * targets.density(hit.surface.point, direction) + (1.0 - weight) * own
+            }
+        }
+    }
+
+    /// Adds the light of a sampled direction, if nothing is in its way. `density` is that with which the path would
+    /// have gone there by itself.
+    fn add_light(&mut self, hit: &SurfaceHit, light: &LightSample, density: f64) {
+        let scene = self.scene;
+        let instance = scene.compiled.lights[light.light as usize].instance;
+        let leaving = Leaving::new(&hit.surface, hit.direction, light.direction, self.leaving.as_ref());
+        let ray = Ray::new(hit.surface.point, light.direction);
+        self.ledger.shadow_rays += 1;
+        let Some(crossing) =
+            scene.hit_instance(instance, &ray, Some(&leaving), f64::INFINITY, &mut self.scratch)
+        else {
+            return;
+        };
+        // The drawn point may lie behind another part of its own light.
+        if light.distance.is_finite() && crossing.distance < light.distance * (1.0 - 1e-6) {
+            return;
+        }
+        let ray = ray.with_max_distance(crossing.distance);
+        let candidate = raysect_core::Candidate { instance, crossing };
+        let compiled = &scene.compiled;
+        if compiled.any_transparent || compiled.any_medium {
+            if !self.walk_to_light(hit, &ray, &leaving, instance) {
+                return;
+            }
+        } else if scene.is_blocked(&ray, Some(&leaving), &mut self.scratch, |i| i != instance) {
+            return;
+        }
+        let surface = scene.finish(&ray, &candidate);
+        let at = SurfaceHit { surface, direction: light.direction };
+        let material = scene.instances[instance as usize].attached.material();
+        let context =
+            crate::Context { index_in: self.indices.0, index_out: self.indices.0, ..self.context() };
+        if material.emit(&at, context, &mut self.emitted) {
+            let weight = heuristic(light.density, density) / light.density;
+            let found = self.reflected.iter().zip(&self.emitted);
+            let found = self.throughput.iter().zip(found);
+            self.radiance.iter_mut().zip(found).for_each(|(r, (t, (f, e)))| *r += t * f * e * weight);
+        }
+    }
+
+    /// Follows a shadow ray through transparent surfaces and media to a light; reduces `reflected` by what the media
+    /// let through. `false` if something opaque stands in the way.
+    fn walk_to_light(&mut self, hit: &SurfaceHit, ray: &Ray, leaving: &Leaving, light: u32) -> bool {
+        let scene = self.scene;
+        let (mut ray, mut leaving) = (*ray, *leaving);
+        let mut media = self.media;
+        if hit.leads_through(ray.direction) {
+            self.change_list(&mut media, &hit.surface);
+        }
+        loop {
+            let next = scene.hit(&ray, Some(&leaving), &mut self.scratch);
+            let distance = next.map_or(ray.max_distance, |h| h.crossing.distance);
+            self.attenuate_shadow(&media, &ray, distance);
+            let Some(next) = next.filter(|n| n.instance != light) else { return true };
+            let surface: SurfacePoint = scene.finish(&ray, &next);
+            if !scene.compiled.facts[next.instance as usize].transparent
+                && self.is_interface(&media, &surface)
+            {
+                return false;
+            }
+            self.change_list(&mut media, &surface);
+            leaving = Leaving::new(&surface, ray.direction, ray.direction, Some(&leaving));
+            ray =
+                Ray::new(surface.point, ray.direction).with_max_distance(ray.max_distance - surface.distance);
+        }
+    }
+}

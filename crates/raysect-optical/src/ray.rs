@@ -1,0 +1,110 @@
+use raysect_math::{MathError, Point3D, Rng, StreamKey, Vector3D};
+
+use crate::{OpticalError, Path, PathSettings, Slicing, Spectrum, World};
+
+/// A single ray that asks for the spectrum arriving at its origin, without any camera.
+///
+/// ```
+/// use raysect_core::Node;
+/// use raysect_math::{Point3D, Vector3D};
+/// use raysect_optical::{Optics, Ray, UniformSurfaceEmitter, World};
+/// # use raysect_primitive::Sphere;
+/// let mut world = World::new();
+/// world.add(Node::of(Sphere::new(1.0)?, Optics::new(UniformSurfaceEmitter::new(2.0, 1.0))))?;
+/// let ray = Ray::new(Point3D::new(0.0, 0.0, -5.0), Vector3D::Z).spectrum(400.0, 500.0, 4);
+/// assert_eq!(ray.trace(&world)?.samples(), [2.0; 4]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Ray {
+    geometry: raysect_core::Ray,
+    min: f64,
+    max: f64,
+    bins: usize,
+    seed: u64,
+    settings: PathSettings,
+}
+
+/// The mean spectrum of many paths, with its standard error.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SampledSpectrum {
+    /// The mean [W/m²/sr/nm].
+    pub mean: Spectrum,
+    /// Standard error of each bin [W/m²/sr/nm]; infinite for a single path.
+    pub error: Vec<f64>,
+    /// The integral over the range, with its own standard error [W/m²/sr].
+    pub total: raysect_math::Statistics,
+    /// How many paths.
+    pub samples: u64,
+}
+
+impl Ray {
+    /// From a point [m] along a direction of any length, with 40 bins over 375 … 785 nm.
+    pub fn new(origin: Point3D, direction: Vector3D) -> Self {
+        Self {
+            geometry: raysect_core::Ray::new(origin, direction),
+            min: 375.0,
+            max: 785.0,
+            bins: 40,
+            seed: 1,
+            settings: PathSettings::default(),
+        }
+    }
+
+    /// Over a range of wavelengths [nm] in bins.
+    #[doc(alias("min_wavelength", "max_wavelength", "wavelength_range", "bins"))]
+    pub fn spectrum(self, min: f64, max: f64, bins: usize) -> Self {
+        Self { min, max, bins, ..self }
+    }
+
+    /// With an end, in units of the direction's length.
+    pub fn max_distance(mut self, max_distance: f64) -> Self {
+        self.geometry.max_distance = max_distance;
+        self
+    }
+
+    /// With another seed; the same seed gives the same numbers.
+    pub fn seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+
+    /// With other settings of its paths.
+    pub fn settings(self, settings: PathSettings) -> Self {
+        Self { settings, ..self }
+    }
+
+    /// The spectrum along one path.
+    ///
+    /// # Errors
+    /// [`OpticalError::Core`] for a ray that leads nowhere or a scene that cannot be compiled,
+    /// [`OpticalError::Slicing`] for an impossible range, and what a material says of it.
+    pub fn trace(&self, world: &World) -> Result<Spectrum, OpticalError> {
+        Ok(self.sample(world, 1)?.mean)
+    }
+
+    /// The mean spectrum of a number of independent paths.
+    ///
+    /// # Errors
+    /// As [`trace`](Self::trace), and [`OpticalError::Math`] for no paths.
+    pub fn sample(&self, world: &World, count: u64) -> Result<SampledSpectrum, OpticalError> {
+        MathError::check(count >= 1, count as f64, "number of paths", "", "1 or more")?;
+        self.geometry.check()?;
+        let scene = world.scene()?;
+        let slices = Slicing::new(self.min, self.max, self.bins, 1)?.slices();
+        let slice = &slices[0];
+        for instance in &scene.instances {
+            instance.attached.material().check(slice)?;
+        }
+        let mut path = Path::new(scene, slice, &self.settings);
+        let mut bins = vec![raysect_math::Statistics::new(); self.bins];
+        let mut total = raysect_math::Statistics::new();
+        for sample in 0..count {
+            let rng = Rng::keyed(StreamKey { seed: self.seed, sample, ..StreamKey::default() });
+            let radiance = path.follow(&self.geometry, rng);
+            bins.iter_mut().zip(radiance).for_each(|(s, r)| s.add(*r));
+            total.add(radiance.iter().sum::<f64>() * slice.bin_width());
+        }
+        let mean = Spectrum::from_samples(self.min, self.max, bins.iter().map(|s| s.mean()).collect())?;
+        Ok(SampledSpectrum { mean, error: bins.iter().map(|s| s.error()).collect(), total, samples: count })
+    }
+}

@@ -1,0 +1,77 @@
+//! Functions of the wavelength.
+
+mod interpolated;
+mod sellmeier;
+
+use std::sync::Arc;
+
+pub use interpolated::InterpolatedSf;
+use raysect_math::integrate;
+pub use sellmeier::Sellmeier;
+
+/// A function of the vacuum wavelength [nm].
+///
+/// A plain `f64` is the constant function (Raysect's `ConstantSF`), and so is any closure `|wavelength| …` one.
+/// Spectra are never sampled at points: a bin holds the average of the function over the bin.
+///
+/// ```
+/// use raysect_optical::SpectralFunction;
+/// assert_eq!(0.7.average(400.0, 500.0), 0.7);
+/// let slope = |wavelength: f64| wavelength / 100.0;
+/// assert!((slope.integrate(400.0, 500.0) - 450.0).abs() < 1e-9);
+/// ```
+#[doc(alias = "ConstantSF")]
+#[doc(alias = "NumericallyIntegratedSF")]
+pub trait SpectralFunction: Send + Sync + 'static {
+    /// The value at a wavelength [nm].
+    fn evaluate(&self, wavelength: f64) -> f64;
+
+    /// The integral between two wavelengths [nm].
+    ///
+    /// By default adaptive Gauss-Kronrod quadrature to 1e-10, begun with cells of 1 nm: structure narrower than
+    /// 0.1 nm can hide between the nodes of a function that does not override this.
+    fn integrate(&self, min: f64, max: f64) -> f64 {
+        integrate(&|wavelength| self.evaluate(wavelength), min, max, 1.0, 1e-10).0
+    }
+
+    /// The average between two wavelengths [nm]; the value itself if they are equal.
+    fn average(&self, min: f64, max: f64) -> f64 {
+        if min == max { self.evaluate(min) } else { self.integrate(min, max) / (max - min) }
+    }
+
+    /// The averages over equal bins from `min` to `max` [nm].
+    fn sample(&self, min: f64, max: f64, bins: usize) -> Vec<f64> {
+        let edge = |i: usize| min + (max - min) * (i as f64 / bins as f64);
+        (0..bins).map(|i| self.average(edge(i), edge(i + 1))).collect()
+    }
+}
+
+impl SpectralFunction for f64 {
+    fn evaluate(&self, _: f64) -> f64 {
+        *self
+    }
+    fn integrate(&self, min: f64, max: f64) -> f64 {
+        self * (max - min)
+    }
+    fn average(&self, _: f64, _: f64) -> f64 {
+        *self
+    }
+}
+
+impl<F: Fn(f64) -> f64 + Send + Sync + 'static> SpectralFunction for F {
+    fn evaluate(&self, wavelength: f64) -> f64 {
+        self(wavelength)
+    }
+}
+
+impl SpectralFunction for Arc<dyn SpectralFunction> {
+    fn evaluate(&self, wavelength: f64) -> f64 {
+        (**self).evaluate(wavelength)
+    }
+    fn integrate(&self, min: f64, max: f64) -> f64 {
+        (**self).integrate(min, max)
+    }
+    fn average(&self, min: f64, max: f64) -> f64 {
+        (**self).average(min, max)
+    }
+}
