@@ -107,6 +107,7 @@ pub fn srgb_to_ciexyz(rgb: [f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SpectralFunction;
 
     #[test]
     fn a_flat_spectrum_is_one_in_every_channel() {
