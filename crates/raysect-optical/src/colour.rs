@@ -91,6 +91,11 @@ fn apply(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 
+/// Linear sRGB values of tristimulus values, before the transfer curve; out of gamut is negative or above 1.
+pub fn xyz_to_linear_srgb(xyz: [f64; 3]) -> [f64; 3] {
+    apply(&TO_RGB, xyz)
+}
+
 /// sRGB values in 0 … 1 of tristimulus values with white at Y = 1; out of gamut is clipped.
 pub fn ciexyz_to_srgb(xyz: [f64; 3]) -> [f64; 3] {
     apply(&TO_RGB, xyz).map(|v| {

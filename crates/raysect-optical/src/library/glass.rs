@@ -90,7 +90,6 @@ impl DataSheet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::SpectralFunction;
 
     #[test]
     fn every_glass_of_the_catalogue_can_be_read() {

@@ -55,6 +55,11 @@ impl PathSettings {
         Ok(Self { roulette_threshold: threshold, ..self })
     }
 
+    /// How paths look for light, as set.
+    pub fn sampling(&self) -> LightSampling {
+        self.light_sampling
+    }
+
     /// How paths look for light.
     #[doc(alias = "ray_importance_sampling")]
     pub fn light_sampling(self, light_sampling: LightSampling) -> Self {
@@ -70,5 +75,16 @@ impl PathSettings {
         let admitted = (0.0..1.0).contains(&weight);
         MathError::check(admitted, weight, "important path weight", "", "0 … 1, without 1")?;
         Ok(Self { important_path_weight: weight, ..self })
+    }
+}
+
+impl std::fmt::Display for PathSettings {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "at most {} scatterings; ", self.max_depth)?;
+        if self.roulette_threshold > 0.0 {
+            write!(f, "roulette below a throughput of {}", self.roulette_threshold)
+        } else {
+            write!(f, "no roulette")
+        }
     }
 }

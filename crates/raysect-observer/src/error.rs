@@ -1,0 +1,78 @@
+use raysect_core::{CoreError, EngineError};
+use raysect_math::MathError;
+use raysect_optical::OpticalError;
+use thiserror::Error;
+
+use crate::file::FileError;
+
+/// What can go wrong with an observation.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ObserverError {
+    /// The scene is wrong.
+    #[error(transparent)]
+    Core(#[from] CoreError),
+    /// A material or the spectral range is wrong.
+    #[error(transparent)]
+    Optical(#[from] OpticalError),
+    /// A parameter lies outside its range.
+    #[error(transparent)]
+    Math(#[from] MathError),
+    /// The work has ended early.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// A file could not be written or read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// There is nothing to observe with.
+    #[error("an observation needs at least one pipeline")]
+    NoPipelines,
+    /// Pipelines that are observed together have seen different samples.
+    #[error("pipeline '{first}' has {first_samples} samples a pixel and '{second}' {second_samples}: those observed together must have seen the same rays")]
+    UnequalPipelines {
+        /// Name of one pipeline.
+        first: String,
+        /// Its samples a pixel.
+        first_samples: u64,
+        /// Name of another.
+        second: String,
+        /// Its samples a pixel.
+        second_samples: u64,
+    },
+    /// A pipeline has accumulated something else before.
+    #[error("pipeline '{name}' has accumulated {before}, which cannot be continued with {now}: use a new pipeline, or clear its frame")]
+    OtherFrame {
+        /// Name of the pipeline.
+        name: String,
+        /// What it has.
+        before: String,
+        /// What is to be added.
+        now: String,
+    },
+    /// Power was asked of a sensor that has no étendue.
+    #[error("pipeline '{pipeline}' measures power, but pixel {pixel} of this {sensor} has no étendue: give it one [m² sr], or measure radiance")]
+    NoEtendue {
+        /// Name of the pipeline.
+        pipeline: String,
+        /// What the sensor is.
+        sensor: &'static str,
+        /// The first pixel without.
+        pixel: usize,
+    },
+    /// A frame has nothing to show yet.
+    #[error("frame '{0}' has no samples yet")]
+    EmptyFrame(String),
+    /// A stop rule that would never stop, or stops at nothing.
+    #[error("stop rule: {0}")]
+    Stop(&'static str),
+    /// A number of values that does not fit the pixels.
+    #[error("{what}: {found} values for {expected} pixels")]
+    PixelCount {
+        /// What was given.
+        what: &'static str,
+        /// How many values were given.
+        found: usize,
+        /// How many pixels there are.
+        expected: usize,
+    },
+}

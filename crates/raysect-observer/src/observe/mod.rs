@@ -1,0 +1,176 @@
+//! An observation: passes over the pixels, until enough.
+
+mod pass;
+mod until;
+
+use std::sync::Arc;
+
+use raysect_core::Engine;
+use raysect_math::AffineMatrix3D;
+use raysect_optical::{Ledger, Scene, Slice, World};
+
+use crate::progress::Meter;
+use crate::{Frame, Observer, ObserverError, Pipeline, Pipelines, RenderReport, Sensor};
+
+/// Samples that are observed and averaged.
+const MAIN_LANE: u64 = 0;
+/// Samples that only decide when to stop.
+const PILOT_LANE: u64 = u64::MAX;
+
+/// How long a pass may take, so that previews come and clocks are looked at [s].
+const PASS_SECONDS: f64 = 4.0;
+
+/// Everything that stays the same during an observation.
+pub(crate) struct Session<'a, S: Sensor> {
+    observer: &'a Observer<S>,
+    scene: &'a Scene,
+    slices: Vec<Slice>,
+    to_world: AffineMatrix3D,
+    pipelines: Vec<&'a mut dyn Pipeline>,
+    /// The frames of the pipelines, kept here while they are written to.
+    frames: Vec<Frame>,
+    engine: Arc<dyn Engine>,
+    report: RenderReport,
+    meter: Meter,
+}
+
+impl<'a, S: Sensor> Session<'a, S> {
+    pub(crate) fn new(
+        observer: &'a Observer<S>,
+        world: &'a World,
+        pipelines: &'a mut (impl Pipelines + ?Sized),
+    ) -> Result<Self, ObserverError> {
+        let mut list = Vec::new();
+        pipelines.each(&mut list);
+        if list.is_empty() {
+            return Err(ObserverError::NoPipelines);
+        }
+        let scene = world.scene()?;
+        let slicing = observer.slicing()?;
+        let slices = slicing.slices();
+        for instance in &scene.instances {
+            for slice in &slices {
+                instance.attached.material().check(slice)?;
+            }
+        }
+        let to_world = observer.to_root(world)?;
+        to_world.inverse()?;
+        let (sensor, shape) = (observer.sensor(), observer.sensor().shape());
+        let fingerprint = format!(
+            "{} of {shape} at {:?}, {} bins over {} … {} nm in {} slices, seed {}",
+            sensor.kind(),
+            to_world.to_rows(),
+            slicing.bins(),
+            slicing.min_wavelength(),
+            slicing.max_wavelength(),
+            slicing.slice_count(),
+            observer.seed_value()
+        );
+        for pipeline in &mut list {
+            if pipeline.needs_etendue() {
+                if let Some(pixel) = (0..shape.pixels()).find(|&p| sensor.etendue(p).is_none()) {
+                    let pipeline = pipeline.frame().name().to_owned();
+                    return Err(ObserverError::NoEtendue { pipeline, sensor: sensor.kind(), pixel });
+                }
+            }
+            let channels = pipeline.channels(&slicing);
+            pipeline.frame_mut().prepare(shape, channels, &fingerprint)?;
+        }
+        check_equal(&list)?;
+        let report = RenderReport {
+            pixels: shape.pixels(),
+            passes: 0,
+            samples: 0,
+            elapsed: Default::default(),
+            ledger: Ledger::default(),
+            invalid: 0,
+            cancelled: false,
+            convergence: None,
+        };
+        Ok(Self {
+            observer,
+            scene,
+            slices,
+            to_world,
+            frames: Vec::new(),
+            pipelines: list,
+            engine: observer.chosen_engine()?,
+            report,
+            meter: Meter::new(0, observer.is_quiet(), observer.watcher()),
+        })
+    }
+
+    fn pixels(&self) -> u64 {
+        self.report.pixels as u64
+    }
+
+    /// Samples that every pixel has.
+    fn samples_before(&self) -> u64 {
+        let frame = self.pipelines[0].frame();
+        (0..self.report.pixels).map(|p| frame.samples(p)).min().unwrap_or(0)
+    }
+
+    pub(crate) fn observe(mut self, samples: u64) -> Result<RenderReport, ObserverError> {
+        self.meter.foresee(samples * self.pixels());
+        self.take(samples, None)?;
+        Ok(self.finish())
+    }
+
+    fn finish(mut self) -> RenderReport {
+        self.report.elapsed = self.meter.elapsed();
+        self.report
+    }
+
+    /// Takes more samples of every pixel, in passes of a few seconds, until the deadline [s]; the number taken.
+    fn take(&mut self, samples: u64, deadline: Option<f64>) -> Result<u64, ObserverError> {
+        let mut done = 0;
+        let mut speed: Option<f64> = None;
+        while done < samples && !self.report.cancelled {
+            let left = deadline.map_or(f64::INFINITY, |d| d - self.meter.elapsed().as_secs_f64());
+            if left <= 0.0 && done > 0 {
+                break;
+            }
+            let time = PASS_SECONDS.min(0.5 * left);
+            let wanted = speed.map_or(1, |per_second| ((per_second * time) as u64).max(1));
+            let count = wanted.min(samples - done);
+            let before = self.meter.elapsed().as_secs_f64();
+            self.main_pass(count)?;
+            let took = (self.meter.elapsed().as_secs_f64() - before).max(1e-9);
+            speed = Some(count as f64 / took);
+            done += count;
+        }
+        Ok(done)
+    }
+
+    /// One pass of the samples that count.
+    fn main_pass(&mut self, count: u64) -> Result<(), ObserverError> {
+        self.frames = self.pipelines.iter_mut().map(|p| std::mem::replace(p.frame_mut(), Frame::new("", ""))).collect();
+        let mut frames = std::mem::take(&mut self.frames);
+        let outcome = self.pass(&mut frames, MAIN_LANE, count);
+        for (pipeline, frame) in self.pipelines.iter_mut().zip(frames) {
+            *pipeline.frame_mut() = frame;
+        }
+        self.report.passes += 1;
+        self.report.samples += outcome?;
+        for pipeline in &mut self.pipelines {
+            pipeline.pass_finished()?;
+        }
+        Ok(())
+    }
+}
+
+fn check_equal(list: &[&mut dyn Pipeline]) -> Result<(), ObserverError> {
+    let first = list[0].frame();
+    for other in list[1..].iter().map(|p| p.frame()) {
+        let unequal = (0..first.shape().pixels()).find(|&p| first.samples(p) != other.samples(p));
+        if let Some(pixel) = unequal {
+            return Err(ObserverError::UnequalPipelines {
+                first: first.name().to_owned(),
+                first_samples: first.samples(pixel),
+                second: other.name().to_owned(),
+                second_samples: other.samples(pixel),
+            });
+        }
+    }
+    Ok(())
+}

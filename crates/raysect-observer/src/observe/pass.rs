@@ -1,0 +1,211 @@
+//! One pass over the pixels, split into work items.
+
+use std::ops::{ControlFlow, Range};
+
+use raysect_core::Ray;
+use raysect_math::{Rng, StreamKey};
+use raysect_optical::{LEDGER_NUMBERS, Ledger, Path};
+
+use super::Session;
+use crate::frame::{BLOCK, add_sample};
+use crate::sensor::radiance_weight;
+use crate::{Frame, Measurement, ObserverError, Pipeline, Sensor};
+
+/// Consecutive samples of one pixel.
+#[derive(Debug, Clone, Copy)]
+struct Task {
+    pixel: usize,
+    first: u64,
+    count: u64,
+}
+
+impl Task {
+    /// How many blocks its samples belong to.
+    fn blocks(&self) -> u64 {
+        (self.first % BLOCK + self.count).div_ceil(BLOCK)
+    }
+}
+
+/// Samples in a work item at most: some milliseconds of work.
+const ITEM_SAMPLES: u64 = 4096;
+
+/// The tasks of a pass and how they are grouped into work items. Neither changes the result.
+struct Items {
+    tasks: Vec<Task>,
+    groups: Vec<Range<usize>>,
+}
+
+impl Items {
+    fn new(frame: &Frame, count: u64, workers: usize, slices: usize) -> Self {
+        let pixels = frame.shape().pixels();
+        let all = pixels as u64 * count;
+        let size = (all / (16 * workers as u64)).clamp(1, (ITEM_SAMPLES / slices as u64).max(1));
+        let mut tasks = Vec::with_capacity(pixels);
+        for pixel in 0..pixels {
+            let (mut first, end) = (frame.samples(pixel), frame.samples(pixel) + count);
+            while first < end {
+                // Only whole blocks can be computed apart from each other.
+                let stop = ((first + size) / BLOCK * BLOCK).max((first / BLOCK + 1) * BLOCK).min(end);
+                tasks.push(Task { pixel, first, count: stop - first });
+                first = stop;
+            }
+        }
+        let (mut groups, mut start, mut samples) = (Vec::new(), 0, 0);
+        for (index, task) in tasks.iter().enumerate() {
+            samples += task.count;
+            if samples >= size {
+                groups.push(start..index + 1);
+                (start, samples) = (index + 1, 0);
+            }
+        }
+        if start < tasks.len() {
+            groups.push(start..tasks.len());
+        }
+        Self { tasks, groups }
+    }
+}
+
+/// What all workers share.
+struct Shared<'s, 'a, S: Sensor> {
+    session: &'s Session<'a, S>,
+    pipelines: &'s [&'s dyn Pipeline],
+    /// The blocks that were open when the pass began.
+    frames: &'s [Frame],
+    lane: u64,
+}
+
+impl<'a, S: Sensor> Session<'a, S> {
+    /// Takes `count` more samples of every pixel into `frames`; answers with the number of samples taken.
+    pub(super) fn pass(&mut self, frames: &mut [Frame], lane: u64, count: u64) -> Result<u64, ObserverError> {
+        let items = Items::new(&frames[0], count, self.engine.workers(), self.slices.len());
+        let strides: Vec<usize> = frames.iter().map(Frame::stride).collect();
+        let (mut ledger, mut invalid, mut samples, mut cancelled) = (Ledger::default(), 0, 0, false);
+        let mut meter = std::mem::replace(&mut self.meter, crate::progress::Meter::new(0, true, None));
+        let before: Vec<Frame> = frames.iter().map(Frame::open_part).collect();
+        let outcome = {
+            let pipelines: Vec<&dyn Pipeline> = self.pipelines.iter().map(|p| &**p).collect();
+            let shared = Shared { session: self, pipelines: &pipelines, frames: &before, lane };
+            let work = |item: usize| shared.item(&items.tasks[items.groups[item].clone()]);
+            let cancel = self.observer.cancel_token();
+            self.engine.run(items.groups.len(), &work, &mut |item, numbers| {
+                let mut rest = &numbers[..];
+                for task in &items.tasks[items.groups[item].clone()] {
+                    for _ in 0..task.blocks() {
+                        for (frame, stride) in frames.iter_mut().zip(&strides) {
+                            let (block, after) = rest.split_at(*stride);
+                            frame.put_block(task.pixel, block);
+                            rest = after;
+                        }
+                    }
+                    samples += task.count;
+                }
+                if let Some((&bad, numbers)) = rest.split_first() {
+                    invalid += bad as u64;
+                    if let Ok(numbers) = numbers.try_into() {
+                        ledger.add_numbers(numbers);
+                    }
+                }
+                meter.add(items.tasks[items.groups[item].clone()].iter().map(|t| t.count).sum());
+                if cancel.is_cancelled() {
+                    cancelled = true;
+                    return ControlFlow::Break(());
+                }
+                ControlFlow::Continue(())
+            })
+        };
+        self.meter = meter;
+        self.report.ledger.add_numbers(&ledger.to_numbers());
+        self.report.invalid += invalid;
+        self.report.cancelled |= cancelled;
+        outcome?;
+        Ok(samples)
+    }
+}
+
+impl<S: Sensor> Shared<'_, '_, S> {
+    /// The blocks of all tasks of an item, pipeline by pipeline; then the number of invalid samples and the ledger.
+    fn item(&self, tasks: &[Task]) -> Vec<f64> {
+        let session = self.session;
+        let settings = session.observer.path_settings();
+        let mut paths: Vec<Path<'_>> =
+            session.slices.iter().map(|slice| Path::new(session.scene, slice, settings)).collect();
+        let widest = session.slices.iter().map(|s| s.bins).max().unwrap_or(0);
+        let mut weighted = vec![0.0; widest];
+        let mut samples: Vec<Vec<f64>> = self.frames.iter().map(|f| vec![0.0; f.channels().len()]).collect();
+        let mut blocks: Vec<Vec<f64>> = self.frames.iter().map(|f| vec![0.0; f.stride()]).collect();
+        let (mut out, mut invalid) = (Vec::new(), 0.0);
+        for task in tasks {
+            for (block, frame) in blocks.iter_mut().zip(self.frames) {
+                block.copy_from_slice(frame.open_block(task.pixel));
+                if task.first % BLOCK == 0 {
+                    block.fill(0.0);
+                }
+            }
+            for number in task.first..task.first + task.count {
+                self.sample(task.pixel, number, &mut paths, &mut weighted, &mut samples);
+                for (block, sample) in blocks.iter_mut().zip(&mut samples) {
+                    if sample.iter().any(|x| !x.is_finite()) {
+                        sample.fill(0.0);
+                        invalid += 1.0;
+                    }
+                    add_sample(block, sample);
+                }
+                if (number + 1) % BLOCK == 0 {
+                    blocks.iter_mut().for_each(|block| {
+                        out.extend_from_slice(block);
+                        block.fill(0.0);
+                    });
+                }
+            }
+            if (task.first + task.count) % BLOCK != 0 {
+                blocks.iter().for_each(|block| out.extend_from_slice(block));
+            }
+        }
+        let mut ledger = Ledger::default();
+        paths.iter().for_each(|path| ledger.add_numbers(&path.ledger().to_numbers()));
+        out.push(invalid);
+        out.extend::<[f64; LEDGER_NUMBERS]>(ledger.to_numbers());
+        out
+    }
+
+    /// One sample of a pixel: a path for each slice, reduced by each pipeline.
+    fn sample(
+        &self,
+        pixel: usize,
+        number: u64,
+        paths: &mut [Path<'_>],
+        weighted: &mut [f64],
+        samples: &mut [Vec<f64>],
+    ) {
+        let (session, sensor) = (self.session, self.session.observer.sensor());
+        samples.iter_mut().for_each(|s| s.fill(0.0));
+        let etendue = sensor.etendue(pixel).unwrap_or(f64::NAN);
+        for (path, slice) in paths.iter_mut().zip(&session.slices) {
+            let mut rng = Rng::keyed(StreamKey {
+                seed: session.observer.seed_value(),
+                lane: self.lane,
+                slice: slice.index as u64,
+                pixel: pixel as u64,
+                sample: number,
+            });
+            let ray = sensor.sample_ray(pixel, &mut rng);
+            let weight = radiance_weight(sensor, pixel, &ray);
+            let ray = Ray {
+                origin: session.to_world.transform_point(ray.origin),
+                direction: session.to_world.transform_vector(ray.direction),
+                max_distance: ray.max_distance,
+            };
+            let radiance = path.follow(&ray, rng);
+            let radiance = if weight == 1.0 {
+                radiance
+            } else {
+                weighted.iter_mut().zip(radiance).for_each(|(w, r)| *w = weight * r);
+                &weighted[..slice.bins]
+            };
+            let measurement = Measurement { pixel, slice, radiance, etendue };
+            for (pipeline, sample) in self.pipelines.iter().zip(samples.iter_mut()) {
+                pipeline.measure(&measurement, sample);
+            }
+        }
+    }
+}

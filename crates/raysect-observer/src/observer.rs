@@ -1,0 +1,280 @@
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use raysect_core::{Engine, Multicore, NodeId};
+use raysect_math::AffineMatrix3D;
+use raysect_optical::{PathSettings, Slicing, World};
+
+use crate::observe::Session;
+use crate::progress::{Progress, Watcher};
+use crate::{ObserverError, Pipelines, Plan, RenderReport, Sensor, Stop};
+
+/// A handle that ends an observation from elsewhere; what is finished is kept.
+#[derive(Debug, Clone, Default)]
+pub struct CancelToken(Arc<AtomicBool>);
+
+impl CancelToken {
+    /// A handle that has not been used yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Ends every observation that holds a clone of this handle.
+    pub fn cancel(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// True after [`cancel`](Self::cancel).
+    pub fn is_cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// A sensor placed in the world, with everything that says how it observes.
+///
+/// ```
+/// use raysect_math::translate;
+/// use raysect_observer::{PinholeCamera, RgbPipeline2D};
+/// use raysect_optical::{UniformSurfaceEmitter, WithMaterial, World};
+/// # use raysect_primitive::Sphere;
+/// let mut world = World::new();
+/// world.add(Sphere::new(1.0)?.material(UniformSurfaceEmitter::new(1.0, 1.0)))?;
+///
+/// let camera = PinholeCamera::new((16, 16), 45.0)?.transform(translate(0.0, 0.0, -5.0)).pixel_samples(10);
+/// let mut rgb = RgbPipeline2D::new();
+/// let report = camera.observe(&world, &mut rgb)?;
+/// assert_eq!(report.ledger.paths, 16 * 16 * 10);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone)]
+pub struct Observer<S: Sensor> {
+    sensor: S,
+    transform: AffineMatrix3D,
+    parent: Option<NodeId>,
+    range: (f64, f64),
+    bins: usize,
+    rays: usize,
+    pixel_samples: u64,
+    seed: u64,
+    paths: PathSettings,
+    engine: Option<Arc<dyn Engine>>,
+    quiet: bool,
+    watcher: Option<Arc<Watcher>>,
+    cancel: CancelToken,
+}
+
+impl<S: Sensor> fmt::Debug for Observer<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, {}, {} samples a pixel", self.sensor.kind(), self.sensor.shape(), self.pixel_samples)
+    }
+}
+
+impl<S: Sensor> Observer<S> {
+    /// Around a sensor, with 15 bins over 375 … 740 nm, one ray for all of them, 100 samples a pixel, seed 1, all
+    /// processors of this machine, and a progress bar on a terminal.
+    pub fn with_sensor(sensor: S) -> Self {
+        Self {
+            sensor,
+            transform: AffineMatrix3D::IDENTITY,
+            parent: None,
+            range: (375.0, 740.0),
+            bins: 15,
+            rays: 1,
+            pixel_samples: 100,
+            seed: 1,
+            paths: PathSettings::default(),
+            engine: None,
+            quiet: false,
+            watcher: None,
+            cancel: CancelToken::default(),
+        }
+    }
+
+    /// Places it relative to its parent. Moving an observer changes nothing in the scene.
+    pub fn transform(mut self, transform: AffineMatrix3D) -> Self {
+        self.transform = transform;
+        self
+    }
+
+    /// Hangs it under a node of the world instead of the root; it moves with the node.
+    pub fn parent(mut self, node: NodeId) -> Self {
+        self.parent = Some(node);
+        self
+    }
+
+    /// Between two wavelengths [nm].
+    #[doc(alias("min_wavelength", "max_wavelength"))]
+    pub fn wavelengths(mut self, min: f64, max: f64) -> Self {
+        self.range = (min, max);
+        self
+    }
+
+    /// In this many bins.
+    pub fn spectral_bins(mut self, bins: usize) -> Self {
+        self.bins = bins;
+        self
+    }
+
+    /// Shared by this many rays: each carries a slice of the bins.
+    pub fn spectral_rays(mut self, rays: usize) -> Self {
+        self.rays = rays;
+        self
+    }
+
+    /// With this many samples a pixel in each [`observe`](Self::observe).
+    pub fn pixel_samples(mut self, samples: u64) -> Self {
+        self.pixel_samples = samples;
+        self
+    }
+
+    /// With another seed. The same seed gives the same bits, on any number of threads.
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// With other settings of its paths.
+    pub fn paths(mut self, paths: PathSettings) -> Self {
+        self.paths = paths;
+        self
+    }
+
+    /// On another engine.
+    #[doc(alias = "render_engine")]
+    pub fn engine(mut self, engine: impl Engine + 'static) -> Self {
+        self.engine = Some(Arc::new(engine));
+        self
+    }
+
+    /// On this many threads.
+    ///
+    /// # Errors
+    /// [`ObserverError::Engine`] for none, or if they cannot be started.
+    pub fn threads(self, threads: usize) -> Result<Self, ObserverError> {
+        Ok(self.engine(Multicore::with_threads(threads)?))
+    }
+
+    /// Without a progress bar.
+    pub fn quiet(mut self, quiet: bool) -> Self {
+        self.quiet = quiet;
+        self
+    }
+
+    /// Tells a function how far it is, a few times a second.
+    pub fn on_progress(mut self, watcher: impl Fn(&Progress) + Send + Sync + 'static) -> Self {
+        self.watcher = Some(Arc::new(watcher));
+        self
+    }
+
+    /// Ends when a handle says so.
+    pub fn cancelled_by(mut self, token: &CancelToken) -> Self {
+        self.cancel = token.clone();
+        self
+    }
+
+    /// The sensor.
+    pub fn sensor(&self) -> &S {
+        &self.sensor
+    }
+
+    /// The sensor, to be changed.
+    pub fn sensor_mut(&mut self) -> &mut S {
+        &mut self.sensor
+    }
+
+    /// The map from its own space to that of the world.
+    ///
+    /// # Errors
+    /// [`raysect_core::CoreError::UnknownNode`] for a parent of another world.
+    pub fn to_root(&self, world: &World) -> Result<AffineMatrix3D, ObserverError> {
+        let parent = match self.parent {
+            Some(node) => world.to_root(node)?,
+            None => AffineMatrix3D::IDENTITY,
+        };
+        Ok(parent * self.transform)
+    }
+
+    /// The map from its own space to that of a node.
+    ///
+    /// # Errors
+    /// [`raysect_core::CoreError::UnknownNode`] for a node of another world.
+    pub fn to(&self, world: &World, node: NodeId) -> Result<AffineMatrix3D, ObserverError> {
+        Ok(world.to(self.parent.unwrap_or(world.root()), node)? * self.transform)
+    }
+
+    /// The spectral range, its bins and slices.
+    ///
+    /// # Errors
+    /// [`raysect_optical::OpticalError::Slicing`] for an impossible combination.
+    pub fn slicing(&self) -> Result<Slicing, ObserverError> {
+        Ok(Slicing::new(self.range.0, self.range.1, self.bins, self.rays)?)
+    }
+
+    /// What an observation will model, what it will not, and why.
+    ///
+    /// # Errors
+    /// As [`observe`](Self::observe).
+    pub fn plan(&self, world: &World) -> Result<Plan, ObserverError> {
+        Plan::new(self, world)
+    }
+
+    /// Observes with [`pixel_samples`](Self::pixel_samples) more samples of every pixel. A pipeline that has seen
+    /// samples before goes on where it ended: the bits are those of one long observation.
+    ///
+    /// # Errors
+    /// Whatever makes the scene, the range or the pipelines impossible; a panic in a user's material, with all
+    /// finished work kept.
+    pub fn observe(
+        &self,
+        world: &World,
+        pipelines: &mut (impl Pipelines + ?Sized),
+    ) -> Result<RenderReport, ObserverError> {
+        Session::new(self, world, pipelines)?.observe(self.pixel_samples)
+    }
+
+    /// Observes until a rule says stop.
+    ///
+    /// # Errors
+    /// As [`observe`](Self::observe), and [`ObserverError::Stop`] for a rule that cannot work.
+    pub fn observe_until(
+        &self,
+        world: &World,
+        pipelines: &mut (impl Pipelines + ?Sized),
+        stop: Stop,
+    ) -> Result<RenderReport, ObserverError> {
+        stop.check()?;
+        Session::new(self, world, pipelines)?.observe_until(&stop)
+    }
+
+    pub(crate) fn path_settings(&self) -> &PathSettings {
+        &self.paths
+    }
+
+    pub(crate) fn seed_value(&self) -> u64 {
+        self.seed
+    }
+
+    pub(crate) fn chosen_engine(&self) -> Result<Arc<dyn Engine>, ObserverError> {
+        match &self.engine {
+            Some(engine) => Ok(engine.clone()),
+            None => Ok(Arc::new(Multicore::new()?)),
+        }
+    }
+
+    pub(crate) fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
+    pub(crate) fn watcher(&self) -> Option<Arc<Watcher>> {
+        self.watcher.clone()
+    }
+
+    pub(crate) fn cancel_token(&self) -> &CancelToken {
+        &self.cancel
+    }
+
+    pub(crate) fn samples_per_observation(&self) -> u64 {
+        self.pixel_samples
+    }
+}

@@ -1,0 +1,108 @@
+use std::fmt;
+use std::time::Duration;
+
+use raysect_optical::Ledger;
+
+/// Whether an error that was asked for has been reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Convergence {
+    /// True if it has been reached in the scope asked for.
+    pub reached: bool,
+    /// How many values are not accurate enough, among them those that no light has reached.
+    pub unconverged: usize,
+    /// Of how many.
+    pub elements: usize,
+    /// Samples a pixel that were spent on the decision alone.
+    pub pilot_samples: u64,
+}
+
+/// What an observation has done.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RenderReport {
+    /// Number of pixels.
+    pub pixels: usize,
+    /// Number of passes over them.
+    pub passes: usize,
+    /// Samples taken of all pixels, by this observation, without those of the pilot.
+    pub samples: u64,
+    /// Time taken.
+    pub elapsed: Duration,
+    /// What has become of the paths, those of the pilot included.
+    pub ledger: Ledger,
+    /// Samples that were not finite numbers and were counted as zero: a fault in a material.
+    pub invalid: u64,
+    /// True if it was cancelled.
+    pub cancelled: bool,
+    /// What has been reached, if an error was asked for.
+    pub convergence: Option<Convergence>,
+}
+
+impl RenderReport {
+    /// Paths per second.
+    pub fn paths_per_second(&self) -> f64 {
+        self.ledger.paths as f64 / self.elapsed.as_secs_f64()
+    }
+
+    /// Rays per second, those towards lights included.
+    pub fn rays_per_second(&self) -> f64 {
+        (self.ledger.rays + self.ledger.shadow_rays) as f64 / self.elapsed.as_secs_f64()
+    }
+
+    /// The share of light that paths cut off by `max_depth` may have missed, in an enclosure of uniform radiance.
+    pub fn truncated_share(&self) -> f64 {
+        self.ledger.truncated_throughput / (self.ledger.paths as f64).max(1.0)
+    }
+
+    /// What a careful user should know before believing the result.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut all = Vec::new();
+        let l = &self.ledger;
+        if self.invalid > 0 {
+            all.push(format!("{} samples were not finite and were counted as zero: a material is at fault", self.invalid));
+        }
+        if l.truncated > 0 {
+            let share = self.truncated_share();
+            all.push(format!("{} paths were cut off by max_depth, with {share:.2e} of the throughput", l.truncated));
+        }
+        if l.lost > 0 {
+            all.push(format!("{} paths were lost between transparent surfaces or in a volume without end", l.lost));
+        }
+        if l.inconsistencies > 0 {
+            all.push(format!("{} times the surfaces passed did not agree with the media around", l.inconsistencies));
+        }
+        if let Some(c) = self.convergence.filter(|c| !c.reached) {
+            all.push(format!("not converged: {} of {} values are less accurate than asked for", c.unconverged, c.elements));
+        }
+        all
+    }
+}
+
+impl fmt::Display for RenderReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let l = &self.ledger;
+        let per_path = (l.rays + l.shadow_rays) as f64 / (l.paths as f64).max(1.0);
+        writeln!(
+            f,
+            "{} samples of {} pixels in {} passes, {:.2} s: {:.3e} paths/s, {:.3e} rays/s ({per_path:.2} a path)",
+            self.samples,
+            self.pixels,
+            self.passes,
+            self.elapsed.as_secs_f64(),
+            self.paths_per_second(),
+            self.rays_per_second(),
+        )?;
+        write!(
+            f,
+            "{} paths: {} absorbed, {} escaped, {} ended by roulette, {} cut off, {} lost",
+            l.paths, l.absorbed, l.escaped, l.killed, l.truncated, l.lost
+        )?;
+        if let Some(c) = &self.convergence {
+            let word = if c.reached { "reached" } else { "not reached" };
+            write!(f, "\nerror {word}: {} of {} values within it", c.elements - c.unconverged, c.elements)?;
+        }
+        for warning in self.warnings() {
+            write!(f, "\nwarning: {warning}")?;
+        }
+        Ok(())
+    }
+}

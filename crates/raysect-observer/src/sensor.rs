@@ -1,0 +1,98 @@
+use raysect_core::Ray;
+use raysect_math::{Point3D, Rng, Vector3D};
+
+/// How the pixels of a sensor are arranged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FrameShape {
+    /// One pixel.
+    Single,
+    /// A row of pixels.
+    Line(usize),
+    /// A picture.
+    Image {
+        /// Pixels across, from the camera's left (+x) to its right.
+        columns: usize,
+        /// Pixels down, from the top (+y).
+        rows: usize,
+    },
+}
+
+impl FrameShape {
+    /// Number of pixels.
+    pub const fn pixels(self) -> usize {
+        self.columns() * self.rows()
+    }
+
+    /// Pixels across.
+    pub const fn columns(self) -> usize {
+        match self {
+            Self::Single => 1,
+            Self::Line(columns) | Self::Image { columns, .. } => columns,
+        }
+    }
+
+    /// Pixels down.
+    pub const fn rows(self) -> usize {
+        match self {
+            Self::Single | Self::Line(_) => 1,
+            Self::Image { rows, .. } => rows,
+        }
+    }
+}
+
+impl std::fmt::Display for FrameShape {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Single => write!(f, "1 pixel"),
+            Self::Line(n) => write!(f, "{n} pixels"),
+            Self::Image { columns, rows } => write!(f, "{columns}×{rows} pixels"),
+        }
+    }
+}
+
+/// What looks: where its rays begin and go, and how it weighs what they bring.
+///
+/// Everything is in the local space of the observer. Pixels are numbered row by row. The weight of a sample follows
+/// from the other answers and is never written by hand: radiance counts `response · cosine / (pdf · étendue)`, or
+/// just `response` for a sensor that looks along one direction only.
+/// [`check_sensor`](crate::testing::check_sensor) tests that E\[response · cosine / pdf\] is the étendue.
+pub trait Sensor: Send + Sync {
+    /// How its pixels are arranged.
+    fn shape(&self) -> FrameShape;
+
+    /// Draws a ray of a pixel; its direction is a unit vector.
+    fn sample_ray(&self, pixel: usize, rng: &mut Rng) -> Ray;
+
+    /// Density of [`sample_ray`](Self::sample_ray) per area and solid angle [1/m²/sr]; none for a sensor whose rays
+    /// begin at one point or go one way only.
+    fn pdf(&self, pixel: usize, origin: Point3D, direction: Vector3D) -> Option<f64>;
+
+    /// Relative sensitivity to light that arrives against `direction` at `origin`.
+    fn response(&self, _pixel: usize, _origin: Point3D, _direction: Vector3D) -> f64 {
+        1.0
+    }
+
+    /// Cosine of the angle between `direction` and the normal of the sensor; the z axis by default.
+    fn cosine(&self, _pixel: usize, _origin: Point3D, direction: Vector3D) -> f64 {
+        direction.z.max(0.0)
+    }
+
+    /// ∫∫ response cos θ dΩ dA of a pixel [m² sr], by which radiance becomes power; none if it is not known.
+    fn etendue(&self, pixel: usize) -> Option<f64>;
+
+    /// What it is, for messages and `plan`.
+    fn kind(&self) -> &'static str {
+        let full = std::any::type_name::<Self>();
+        full.rsplit("::").next().unwrap_or(full)
+    }
+}
+
+/// By how much the radiance along a ray of a sensor counts.
+pub(crate) fn radiance_weight<S: Sensor + ?Sized>(sensor: &S, pixel: usize, ray: &Ray) -> f64 {
+    let (origin, direction) = (ray.origin, ray.direction);
+    let response = sensor.response(pixel, origin, direction);
+    match (sensor.pdf(pixel, origin, direction), sensor.etendue(pixel)) {
+        (Some(pdf), Some(etendue)) => response * sensor.cosine(pixel, origin, direction) / (pdf * etendue),
+        _ => response,
+    }
+}

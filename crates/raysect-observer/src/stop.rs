@@ -1,0 +1,215 @@
+//! When to stop, and what the samples that decide have to do with those that count: nothing.
+
+use std::time::Duration;
+
+use crate::frame::Estimate;
+use crate::{Frame, ObserverError};
+
+/// What a stop rule looks at.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Scope {
+    /// The sum over all pixels of each channel.
+    #[default]
+    Total,
+    /// Each pixel and channel: this share of them, 0 … 1, must be accurate enough.
+    Pixels(f64),
+}
+
+/// When an observation is good enough, or has taken long enough.
+///
+/// ```
+/// use raysect_observer::{Scope, Stop, minutes};
+/// let stop = Stop::relative_error(0.01).or_after(minutes(10.0));
+/// let picture = Stop::relative_error(0.05).scope(Scope::Pixels(0.95)).or_samples(10_000);
+/// ```
+///
+/// Whether the error is small enough is decided by *pilot* samples of their own, which are thrown away: an average
+/// that decides about its own end is biased (a rare bright sample ends it late, its absence early). The pilot needs
+/// 30 samples that contribute to each element before it says how many are needed; then that many are taken. Should
+/// their error come out a little too large all the same, they are added to, at most to four times as many.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stop {
+    relative: Option<f64>,
+    absolute: Option<f64>,
+    pub(crate) scope: Scope,
+    pub(crate) samples: Option<u64>,
+    pub(crate) time: Option<Duration>,
+}
+
+/// A time in minutes.
+pub fn minutes(minutes: f64) -> Duration {
+    seconds(60.0 * minutes)
+}
+
+/// A time in seconds; none for a negative or NaN number.
+pub fn seconds(seconds: f64) -> Duration {
+    Duration::try_from_secs_f64(seconds.max(0.0)).unwrap_or(Duration::MAX)
+}
+
+/// What an element needs before its error is believed.
+pub(crate) const CONTRIBUTING: u64 = 30;
+
+impl Stop {
+    const NEVER: Self = Self { relative: None, absolute: None, scope: Scope::Total, samples: None, time: None };
+
+    /// When the standard error is this small relative to the value.
+    pub fn relative_error(error: f64) -> Self {
+        Self { relative: Some(error), ..Self::NEVER }
+    }
+
+    /// When the standard error is this small, in the unit of the pipeline.
+    pub fn absolute_error(error: f64) -> Self {
+        Self { absolute: Some(error), ..Self::NEVER }
+    }
+
+    /// After this many samples a pixel.
+    pub fn samples(samples: u64) -> Self {
+        Self { samples: Some(samples), ..Self::NEVER }
+    }
+
+    /// After this time.
+    pub fn time(time: Duration) -> Self {
+        Self { time: Some(time), ..Self::NEVER }
+    }
+
+    /// Also after this time, whatever is reached by then.
+    pub fn or_after(self, time: Duration) -> Self {
+        Self { time: Some(time), ..self }
+    }
+
+    /// Also after this many samples a pixel, whatever is reached by then.
+    pub fn or_samples(self, samples: u64) -> Self {
+        Self { samples: Some(samples), ..self }
+    }
+
+    /// What the error is asked of.
+    pub fn scope(self, scope: Scope) -> Self {
+        Self { scope, ..self }
+    }
+
+    pub(crate) fn check(&self) -> Result<(), ObserverError> {
+        for error in [self.relative, self.absolute].into_iter().flatten() {
+            if error.is_nan() || error <= 0.0 {
+                return Err(ObserverError::Stop("the error to be reached must be positive"));
+            }
+        }
+        if self.samples == Some(0) {
+            return Err(ObserverError::Stop("no samples at all"));
+        }
+        match self.scope {
+            Scope::Pixels(share) if !(share > 0.0 && share <= 1.0) => {
+                Err(ObserverError::Stop("the share of pixels must lie in 0 … 1, without 0"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// True if an error is to be reached.
+    pub(crate) fn has_target(&self) -> bool {
+        self.relative.is_some() || self.absolute.is_some()
+    }
+
+    /// The error that an element of a value is to reach.
+    fn target(&self, value: f64) -> f64 {
+        let relative = self.relative.map_or(0.0, |r| r * value.abs());
+        relative.max(self.absolute.unwrap_or(0.0))
+    }
+}
+
+/// One number that a stop rule looks at.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Element {
+    estimate: Estimate,
+    samples: u64,
+    contributing: u64,
+    /// What its error may be, and what a value too small to matter is.
+    target: f64,
+    negligible: f64,
+    largest: f64,
+}
+
+impl Element {
+    /// True if nothing has been seen, and what could hide is negligible: fewer than one in n / 3 samples at 95 %
+    /// confidence (the rule of three), none larger than the largest seen anywhere.
+    fn is_negligible(&self) -> bool {
+        self.contributing == 0 && self.samples > 0 && 3.0 / self.samples as f64 * self.largest <= self.negligible
+    }
+
+    pub(crate) fn is_converged(&self) -> bool {
+        let known = self.contributing >= CONTRIBUTING && self.estimate.error <= self.target;
+        known || self.is_negligible()
+    }
+
+    /// How many samples it needs in all, from what these tell; none if they tell too little.
+    pub(crate) fn needed(&self) -> Option<f64> {
+        if self.is_negligible() {
+            return Some(self.samples as f64);
+        }
+        if self.contributing < CONTRIBUTING || self.target <= 0.0 {
+            return None;
+        }
+        let ratio = self.estimate.error / self.target;
+        // The variance itself is only known to about two over the root of the contributions.
+        let margin = 1.0 + 2.0 / (self.contributing as f64).sqrt();
+        Some(self.samples as f64 * ratio * ratio * margin)
+    }
+}
+
+/// The elements that a rule looks at.
+pub(crate) fn elements(stop: &Stop, frames: &[Frame]) -> Vec<Element> {
+    let mut all = Vec::new();
+    for frame in frames {
+        let pixels = frame.shape().pixels();
+        let largest = (0..pixels).map(|p| frame.largest(p)).fold(0.0, f64::max);
+        for channel in 0..frame.channels().len() {
+            let total = frame.total_of(channel);
+            match stop.scope {
+                Scope::Total => all.push(Element {
+                    estimate: total,
+                    samples: frame.total_samples() / pixels as u64,
+                    contributing: (0..pixels).map(|p| frame.contributing(p)).sum(),
+                    target: stop.target(total.value),
+                    negligible: 0.0,
+                    largest,
+                }),
+                Scope::Pixels(_) => {
+                    let negligible = stop.target(total.value / pixels as f64);
+                    all.extend((0..pixels).map(|p| {
+                        let estimate = frame.pixel(p, channel);
+                        Element {
+                            estimate,
+                            samples: frame.samples(p),
+                            contributing: frame.contributing(p),
+                            target: stop.target(estimate.value),
+                            negligible,
+                            largest,
+                        }
+                    }));
+                }
+            }
+        }
+    }
+    all
+}
+
+/// Samples a pixel that satisfy a rule, by what the pilot tells; none if it tells too little.
+pub(crate) fn needed_samples(stop: &Stop, elements: &[Element]) -> Option<u64> {
+    let share = match stop.scope {
+        Scope::Total => 1.0,
+        Scope::Pixels(share) => share,
+    };
+    let mut needed: Vec<f64> = elements.iter().map(|e| e.needed().unwrap_or(f64::INFINITY)).collect();
+    needed.sort_by(f64::total_cmp);
+    let place = ((needed.len() as f64 * share).ceil() as usize).clamp(1, needed.len()) - 1;
+    needed.get(place).filter(|n| n.is_finite()).map(|n| n.ceil() as u64)
+}
+
+/// True if enough elements have converged, and how many have not.
+pub(crate) fn verdict(stop: &Stop, elements: &[Element]) -> (bool, usize) {
+    let failed = elements.iter().filter(|e| !e.is_converged()).count();
+    let allowed = match stop.scope {
+        Scope::Total => 0.0,
+        Scope::Pixels(share) => (1.0 - share) * elements.len() as f64 + 1e-9,
+    };
+    (failed as f64 <= allowed, failed)
+}
