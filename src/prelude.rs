@@ -3,17 +3,17 @@
 pub use crate::core::{Acceleration, Multicore, Node, NodeId, Primitive, Serial};
 pub use crate::math::units::{cm, foot, inch, km, mm, nm, um};
 pub use crate::math::{
-    AffineMatrix3D, Normal3D, Point2D, Point3D, Vector2D, Vector3D, rotate, rotate_basis, rotate_vector, rotate_x,
-    rotate_y, rotate_z, translate,
+    AffineMatrix3D, Normal3D, Point2D, Point3D, Vector2D, Vector3D, rotate, rotate_basis, rotate_vector,
+    rotate_x, rotate_y, rotate_z, translate,
 };
 pub use crate::observer::{
-    CancelToken, Estimate, Frame, Observer, PinholeCamera, Pipeline, Pipelines, PowerPipeline2D, RadiancePipeline2D,
-    RenderReport, RgbPipeline2D, Scope, Sensor, Stop, minutes, seconds,
+    CancelToken, Estimate, Frame, Observer, PinholeCamera, Pipeline, Pipelines, PowerPipeline2D,
+    RadiancePipeline2D, RenderReport, RgbPipeline2D, Scope, Sensor, Stop, minutes, seconds,
 };
 pub use crate::optical::library::schott;
 pub use crate::optical::{
     AbsorbingSurface, Bsdf, Checkerboard, Context, Dielectric, Facts, InterpolatedSf, Lambert, LightSampling,
-    Material, Materials, NullMaterial, Path, PathSettings, Ray, Scatter, Sellmeier, SpectralFunction, SpectralTable,
-    Spectrum, SurfaceHit, UniformSurfaceEmitter, WithMaterial, World,
+    Material, Materials, NullMaterial, Path, PathSettings, Ray, Scatter, Sellmeier, SpectralFunction,
+    SpectralTable, Spectrum, SurfaceHit, UniformSurfaceEmitter, WithMaterial, World,
 };
 pub use crate::primitive::{Cuboid, Sphere};

@@ -38,15 +38,15 @@ pub(crate) fn cornell_box(variant: Variant) -> raysect::Result<World> {
     let lamp = Cuboid::new(Point3D::new(-0.4, -0.4, -0.01), Point3D::new(0.4, 0.4, 0.0))?;
     let light = InterpolatedSf::new([400.0, 500.0, 600.0, 700.0], [0.0, 8.0, 15.6, 18.4])?;
     let place = translate(0.0, 1.0, 0.0) * rotate(0.0, 90.0, 0.0);
-    world.add(lamp.material(UniformSurfaceEmitter::new(light, 2.0)).transform(place).parent(room).name("lamp"))?;
+    world.add(
+        lamp.material(UniformSurfaceEmitter::new(light, 2.0)).transform(place).parent(room).name("lamp"),
+    )?;
 
     let block = Cuboid::new(Point3D::new(-0.4, 0.0, -0.4), Point3D::new(0.3, 1.4, 0.3))?;
     let ball = Sphere::new(0.4)?;
     // A micrometre above the floor, as in the demonstration.
-    let (block_place, ball_place) = (
-        translate(0.4, -1.0 + 1e-6, 0.4) * rotate(30.0, 0.0, 0.0),
-        translate(-0.4, -0.6 + 1e-6, -0.4),
-    );
+    let (block_place, ball_place) =
+        (translate(0.4, -1.0 + 1e-6, 0.4) * rotate(30.0, 0.0, 0.0), translate(-0.4, -0.6 + 1e-6, -0.4));
     let (block, ball) = match variant {
         Variant::Glass => (block.material(schott("N-BK7")?), ball.material(schott("N-BK7")?)),
         Variant::Diffuse => (block.material(Lambert::new(white.clone())), ball.material(Lambert::new(white))),

@@ -9,6 +9,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
 use cornell::Variant;
+use raysect::optical::colour::CieObserver;
 use raysect::prelude::*;
 
 /// Renders the Cornell box of Raysect's demonstration, with an error bar on every number.
@@ -70,7 +71,10 @@ fn main() -> raysect::Result<()> {
     }
     std::fs::create_dir_all(&arguments.out)?;
     let file = |extension: &str| arguments.out.join(format!("cornell_box.{extension}"));
-    let mut rgb = RgbPipeline2D::new().unsaturated_fraction(0.96)?.preview(file("png"));
+    let mut rgb = RgbPipeline2D::new()
+        .observer(CieObserver::FiveNanometres)
+        .unsaturated_fraction(0.96)?
+        .preview(file("png"));
     let mut radiance = RadiancePipeline2D::new();
     if !arguments.quiet {
         println!("{}\n", camera.plan(&world)?);

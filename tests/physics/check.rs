@@ -155,7 +155,10 @@ pub(crate) fn check(expected: f64, demand: Demand, reading: &Reading) -> Result<
 pub(crate) fn accept(case: impl fmt::Display, expected: f64, demand: Demand, reading: &Reading) {
     let (mean, error) = (reading.radiance.mean(), reading.radiance.error());
     let z = if error > ROUNDING * expected { (mean - expected) / error } else { 0.0 };
-    println!("{case:<44} {expected:<12.9} {mean:<12.9} ± {error:.1e} ({:.2} %)  z {z:+.2}", 1e2 * error / mean);
+    println!(
+        "{case:<44} {expected:<12.9} {mean:<12.9} ± {error:.1e} ({:.2} %)  z {z:+.2}",
+        1e2 * error / mean
+    );
     if let Err(rejection) = check(expected, demand, reading) {
         panic!("{case}: expected {expected}, read {mean} ± {error}: {rejection}");
     }

@@ -93,10 +93,9 @@ fn x03_radiance_inside_glass_is_that_outside_times_the_square_of_the_index() {
 #[test]
 fn r08_a_glowing_diffuse_room_is_a_geometric_series() {
     let brick = cuboid([-1.0, -0.5, -2.0], [1.0, 0.7, 0.9]);
-    for room in [
-        unit_ball(GlowingLambert(Lambert::new(0.9))),
-        brick.material(GlowingLambert(Lambert::new(0.9))),
-    ] {
+    for room in
+        [unit_ball(GlowingLambert(Lambert::new(0.9))), brick.material(GlowingLambert(Lambert::new(0.9)))]
+    {
         let world = world([room]);
         for sampling in [LightSampling::Lights, LightSampling::Off] {
             let reading = Probe::new(4000).without_roulette().light(sampling).each(&world, anywhere);

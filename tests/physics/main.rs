@@ -1,6 +1,13 @@
 //! Physics of the path tracer against closed forms.
 
 mod check;
+mod controls;
+mod depth;
 mod furnace;
+mod glass;
+mod irradiance;
+mod lights;
 mod materials;
+mod plates;
 mod scenes;
+mod wrong;

@@ -28,7 +28,9 @@ pub enum ObserverError {
     #[error("an observation needs at least one pipeline")]
     NoPipelines,
     /// Pipelines that are observed together have seen different samples.
-    #[error("pipeline '{first}' has {first_samples} samples a pixel and '{second}' {second_samples}: those observed together must have seen the same rays")]
+    #[error(
+        "pipeline '{first}' has {first_samples} samples a pixel and '{second}' {second_samples}: those observed together must have seen the same rays"
+    )]
     UnequalPipelines {
         /// Name of one pipeline.
         first: String,
@@ -40,7 +42,9 @@ pub enum ObserverError {
         second_samples: u64,
     },
     /// A pipeline has accumulated something else before.
-    #[error("pipeline '{name}' has accumulated {before}, which cannot be continued with {now}: use a new pipeline, or clear its frame")]
+    #[error(
+        "pipeline '{name}' has accumulated {before}, which cannot be continued with {now}: use a new pipeline, or clear its frame"
+    )]
     OtherFrame {
         /// Name of the pipeline.
         name: String,
@@ -50,7 +54,9 @@ pub enum ObserverError {
         now: String,
     },
     /// Power was asked of a sensor that has no étendue.
-    #[error("pipeline '{pipeline}' measures power, but pixel {pixel} of this {sensor} has no étendue: give it one [m² sr], or measure radiance")]
+    #[error(
+        "pipeline '{pipeline}' measures power, but pixel {pixel} of this {sensor} has no étendue: give it one [m² sr], or measure radiance"
+    )]
     NoEtendue {
         /// Name of the pipeline.
         pipeline: String,

@@ -42,13 +42,19 @@ impl Frame {
 
     /// Writes the layers `mean`, `error` and `samples` of an OpenEXR file, with `shown` as the layer that viewers
     /// show first.
-    pub(crate) fn save_exr_showing(&self, path: impl AsRef<Path>, shown: ExrLayer) -> Result<(), ObserverError> {
+    pub(crate) fn save_exr_showing(
+        &self,
+        path: impl AsRef<Path>,
+        shown: ExrLayer,
+    ) -> Result<(), ObserverError> {
         self.check_samples()?;
         let channels = self.channels().len();
         let split = |values: Vec<f64>, name: &str| ExrLayer {
             name: name.to_owned(),
             channels: (0..channels)
-                .map(|c| (self.channels()[c].clone(), values.iter().skip(c).step_by(channels).copied().collect()))
+                .map(|c| {
+                    (self.channels()[c].clone(), values.iter().skip(c).step_by(channels).copied().collect())
+                })
                 .collect(),
         };
         let counts = self.sample_counts().iter().map(|&n| n as f64).collect();

@@ -29,10 +29,13 @@ impl Plan {
         let mut plan = Self { lines: Vec::new() };
         let sensor = observer.sensor();
         plan.line("sensor", format!("{}, {}", sensor.kind(), sensor.shape()));
-        plan.line("quantity", match sensor.etendue(0) {
-            Some(g) => format!("radiance, and power by an étendue of {g:.6e} m² sr (first pixel)"),
-            None => "radiance only: no étendue is given, so no power".to_owned(),
-        });
+        plan.line(
+            "quantity",
+            match sensor.etendue(0) {
+                Some(g) => format!("radiance, and power by an étendue of {g:.6e} m² sr (first pixel)"),
+                None => "radiance only: no étendue is given, so no power".to_owned(),
+            },
+        );
         plan.line("scene", format!("{} shapes, {}", scene.instances.len(), scene.accelerator().describe()));
         plan.line(
             "spectrum",
@@ -47,16 +50,22 @@ impl Plan {
         );
         plan.line("dispersion", dispersion(known, slicing.bins(), slicing.slice_count()));
         plan.line("lights", lights(known, observer));
-        plan.line("volumes", if known.any_medium {
-            "media along every piece of a path, solved exactly".to_owned()
-        } else {
-            "none: no containment is asked for".to_owned()
-        });
-        plan.line("shadows", if known.any_transparent || known.any_medium {
-            "followed through transparent surfaces and media".to_owned()
-        } else {
-            "any surface blocks: none is transparent, no volume is filled".to_owned()
-        });
+        plan.line(
+            "volumes",
+            if known.any_medium {
+                "media along every piece of a path, solved exactly".to_owned()
+            } else {
+                "none: no containment is asked for".to_owned()
+            },
+        );
+        plan.line(
+            "shadows",
+            if known.any_transparent || known.any_medium {
+                "followed through transparent surfaces and media".to_owned()
+            } else {
+                "any surface blocks: none is transparent, no volume is filled".to_owned()
+            },
+        );
         let paths = observer.path_settings();
         plan.line("paths", paths.to_string());
         plan.line(
@@ -86,7 +95,9 @@ fn dispersion(known: &Illumination, bins: usize, slices: usize) -> String {
     if !known.any_dispersion {
         return "none: nothing refracts by wavelength, so one ray for all bins is exact".to_owned();
     }
-    let all = format!("the mean index of each of {slices} slices of {bins} bins; inside a slice it is not modelled");
+    let all = format!(
+        "the mean index of each of {slices} slices of {bins} bins; inside a slice it is not modelled"
+    );
     if slices < bins { format!("{all} (more with spectral_rays)") } else { all }
 }
 
@@ -97,7 +108,9 @@ fn lights<S: Sensor>(known: &Illumination, observer: &Observer<S>) -> String {
     let sampled = names(&mut known.lights.iter().map(|l| l.instance as usize));
     match observer.path_settings().sampling() {
         LightSampling::Off => "not looked for: paths follow the surfaces alone".to_owned(),
-        LightSampling::BoundingSpheres => format!("{} bounding spheres are aimed at", known.all_targets.len()),
+        LightSampling::BoundingSpheres => {
+            format!("{} bounding spheres are aimed at", known.all_targets.len())
+        }
         LightSampling::Lights => {
             let lights = match known.lights.len() {
                 0 => "none is sampled".to_owned(),

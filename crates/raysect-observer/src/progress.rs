@@ -38,7 +38,8 @@ impl Meter {
         if !quiet && std::io::stderr().is_terminal() {
             bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(4));
         }
-        let template = "{elapsed_precise} {wide_bar} {percent:>3} % {human_pos} samples, {per_sec}, {eta} left {msg}";
+        let template =
+            "{elapsed_precise} {wide_bar} {percent:>3} % {human_pos} samples, {per_sec}, {eta} left {msg}";
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
@@ -62,7 +63,11 @@ impl Meter {
         if self.told.elapsed() >= INTERVAL || self.samples >= self.total {
             self.told = Instant::now();
             if let Some(watcher) = &self.watcher {
-                watcher(&Progress { samples: self.samples, total: self.total, elapsed: self.started.elapsed() });
+                watcher(&Progress {
+                    samples: self.samples,
+                    total: self.total,
+                    elapsed: self.started.elapsed(),
+                });
             }
         }
     }

@@ -58,20 +58,35 @@ impl RenderReport {
         let mut all = Vec::new();
         let l = &self.ledger;
         if self.invalid > 0 {
-            all.push(format!("{} samples were not finite and were counted as zero: a material is at fault", self.invalid));
+            all.push(format!(
+                "{} samples were not finite and were counted as zero: a material is at fault",
+                self.invalid
+            ));
         }
         if l.truncated > 0 {
             let share = self.truncated_share();
-            all.push(format!("{} paths were cut off by max_depth, with {share:.2e} of the throughput", l.truncated));
+            all.push(format!(
+                "{} paths were cut off by max_depth, with {share:.2e} of the throughput",
+                l.truncated
+            ));
         }
         if l.lost > 0 {
-            all.push(format!("{} paths were lost between transparent surfaces or in a volume without end", l.lost));
+            all.push(format!(
+                "{} paths were lost between transparent surfaces or in a volume without end",
+                l.lost
+            ));
         }
         if l.inconsistencies > 0 {
-            all.push(format!("{} times the surfaces passed did not agree with the media around", l.inconsistencies));
+            all.push(format!(
+                "{} times the surfaces passed did not agree with the media around",
+                l.inconsistencies
+            ));
         }
         if let Some(c) = self.convergence.filter(|c| !c.reached) {
-            all.push(format!("not converged: {} of {} values are less accurate than asked for", c.unconverged, c.elements));
+            all.push(format!(
+                "not converged: {} of {} values are less accurate than asked for",
+                c.unconverged, c.elements
+            ));
         }
         all
     }

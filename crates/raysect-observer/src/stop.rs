@@ -50,7 +50,8 @@ pub fn seconds(seconds: f64) -> Duration {
 pub(crate) const CONTRIBUTING: u64 = 30;
 
 impl Stop {
-    const NEVER: Self = Self { relative: None, absolute: None, scope: Scope::Total, samples: None, time: None };
+    const NEVER: Self =
+        Self { relative: None, absolute: None, scope: Scope::Total, samples: None, time: None };
 
     /// When the standard error is this small relative to the value.
     pub fn relative_error(error: f64) -> Self {
@@ -132,7 +133,9 @@ impl Element {
     /// True if nothing has been seen, and what could hide is negligible: fewer than one in n / 3 samples at 95 %
     /// confidence (the rule of three), none larger than the largest seen anywhere.
     fn is_negligible(&self) -> bool {
-        self.contributing == 0 && self.samples > 0 && 3.0 / self.samples as f64 * self.largest <= self.negligible
+        self.contributing == 0
+            && self.samples > 0
+            && 3.0 / self.samples as f64 * self.largest <= self.negligible
     }
 
     pub(crate) fn is_converged(&self) -> bool {

@@ -41,7 +41,9 @@ pub fn check_sensor<S: Sensor + ?Sized>(sensor: &S, samples: usize, seed: u64) -
             continue;
         };
         if weights.count() > 0 && (weights.mean() - etendue).abs() > 5.0 * weights.error() + 1e-12 * etendue {
-            return Err(format!("pixel {pixel}: étendue {etendue} m² sr, but its rays weigh {weights} m² sr"));
+            return Err(format!(
+                "pixel {pixel}: étendue {etendue} m² sr, but its rays weigh {weights} m² sr"
+            ));
         }
     }
     Ok(())

@@ -12,21 +12,46 @@ use crate::{InterpolatedSf, Slicing, SpectralTable, Spectrum};
 /// The integral of ȳ over the visible range [nm] by which Raysect divides the colour matching functions.
 const NORMALISATION: f64 = 106.8566;
 
-/// The colour matching functions x̄, ȳ, z̄ of the CIE 1931 2° observer at 1 nm (ISO 11664-1), divided by 106.8566,
-/// which is the integral of ȳ; zero outside 360 … 830 nm.
-#[doc(alias("ciexyz_x", "ciexyz_y", "ciexyz_z"))]
-pub fn cie_observer() -> &'static [SpectralTable; 3] {
-    static OBSERVER: OnceLock<[SpectralTable; 3]> = OnceLock::new();
-    OBSERVER.get_or_init(|| {
-        let [w, x, y, z] = built_in(include_str!("../data/colour/cie1931_2deg_1nm.csv"));
-        // Zero beyond the ends, where the table stops at 1e-4 and less.
-        let wavelengths: Vec<f64> =
-            [w[0] - 1.0].into_iter().chain(w.iter().copied()).chain([w[w.len() - 1] + 1.0]).collect();
-        [x, y, z].map(|values| {
-            let values: Vec<f64> =
-                [0.0].into_iter().chain(values.iter().map(|v| v / NORMALISATION)).chain([0.0]).collect();
-            proven(InterpolatedSf::new(wavelengths.clone(), values)).into()
-        })
+/// Which table of the CIE 1931 2° observer is used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CieObserver {
+    /// The table at 1 nm, 360 … 830 nm (ISO 11664-1).
+    #[default]
+    OneNanometre,
+    /// The abridged table at 5 nm, linear between 375 and 785 nm, where it ends in zeros: Raysect's. Colours differ
+    /// by some 5e-5.
+    FiveNanometres,
+}
+
+impl CieObserver {
+    /// The colour matching functions x̄, ȳ, z̄ divided by 106.8566, which is the integral of ȳ [nm]; zero outside the
+    /// table.
+    #[doc(alias("ciexyz_x", "ciexyz_y", "ciexyz_z"))]
+    pub fn curves(self) -> &'static [SpectralTable; 3] {
+        static ONE: OnceLock<[SpectralTable; 3]> = OnceLock::new();
+        static FIVE: OnceLock<[SpectralTable; 3]> = OnceLock::new();
+        match self {
+            Self::OneNanometre => {
+                ONE.get_or_init(|| matching_functions(include_str!("../data/colour/cie1931_2deg_1nm.csv")))
+            }
+            Self::FiveNanometres => {
+                FIVE.get_or_init(|| matching_functions(include_str!("../data/colour/cie1931_2deg_5nm.csv")))
+            }
+        }
+    }
+}
+
+fn matching_functions(text: &str) -> [SpectralTable; 3] {
+    let [w, x, y, z] = built_in(text);
+    // Zero beyond the ends, where the table has fallen to 1e-4 and less.
+    let beyond = [w[0] - 1.0, w[w.len() - 1] + 1.0];
+    let enclose = |middle: Vec<f64>, ends: [f64; 2]| -> Vec<f64> {
+        [ends[0]].into_iter().chain(middle).chain([ends[1]]).collect()
+    };
+    let wavelengths = enclose(w, beyond);
+    [x, y, z].map(|values| {
+        let values = values.into_iter().map(|v| v / NORMALISATION).collect();
+        proven(InterpolatedSf::new(wavelengths.clone(), enclose(values, [0.0, 0.0]))).into()
     })
 }
 
@@ -49,7 +74,7 @@ fn proven<T>(result: Result<T, crate::OpticalError>) -> T {
 
 /// The averages of x̄, ȳ, z̄ over each bin.
 pub fn resample_ciexyz(slicing: &Slicing) -> Vec<[f64; 3]> {
-    let sampled = cie_observer().each_ref().map(|curve| {
+    let sampled = CieObserver::default().curves().each_ref().map(|curve| {
         curve.function().sample(slicing.min_wavelength(), slicing.max_wavelength(), slicing.bins())
     });
     (0..slicing.bins()).map(|i| [sampled[0][i], sampled[1][i], sampled[2][i]]).collect()
@@ -58,7 +83,7 @@ pub fn resample_ciexyz(slicing: &Slicing) -> Vec<[f64; 3]> {
 /// The tristimulus values of a spectrum.
 pub fn spectrum_to_ciexyz(spectrum: &Spectrum) -> [f64; 3] {
     let mut xyz = [0.0; 3];
-    for (channel, curve) in cie_observer().iter().enumerate() {
+    for (channel, curve) in CieObserver::default().curves().iter().enumerate() {
         let (low, high) = (spectrum.min_wavelength(), spectrum.max_wavelength());
         let averages = curve.function().sample(low, high, spectrum.bins());
         xyz[channel] =
@@ -120,6 +145,18 @@ mod tests {
         for v in spectrum_to_ciexyz(&flat) {
             assert!((v - 1.0).abs() < 4e-4, "{v}");
         }
+    }
+
+    #[test]
+    fn the_abridged_observer_is_that_of_raysect() {
+        let flat = |observer: CieObserver| {
+            observer.curves().each_ref().map(|c| c.function().integrate(375.0, 785.0))
+        };
+        let five = flat(CieObserver::FiveNanometres);
+        for (v, expected) in five.iter().zip([1.0000095, 1.0000003, 1.0000103]) {
+            assert!((v - expected).abs() < 1e-7, "{v}");
+        }
+        assert!(flat(CieObserver::OneNanometre).iter().zip(five).all(|(a, b)| (a - b).abs() < 5e-4));
     }
 
     #[test]

@@ -48,7 +48,13 @@ impl Observer<Pinhole> {
         MathError::check(admitted, field_of_view, "field of view", "deg", "0 … 180, both excluded")?;
         let width = 2.0 * (0.5 * field_of_view.to_radians()).tan();
         let pitch = width / columns.max(rows) as f64;
-        Ok(Self::with_sensor(Pinhole { columns, rows, pitch, etendue: Etendue::Unknown, cosine_weighted: false }))
+        Ok(Self::with_sensor(Pinhole {
+            columns,
+            rows,
+            pitch,
+            etendue: Etendue::Unknown,
+            cosine_weighted: false,
+        }))
     }
 
     /// With the same étendue for every pixel [m² sr], so that power can be measured.

@@ -144,7 +144,8 @@ impl<'a, S: Sensor> Session<'a, S> {
 
     /// One pass of the samples that count.
     fn main_pass(&mut self, count: u64) -> Result<(), ObserverError> {
-        self.frames = self.pipelines.iter_mut().map(|p| std::mem::replace(p.frame_mut(), Frame::new("", ""))).collect();
+        self.frames =
+            self.pipelines.iter_mut().map(|p| std::mem::replace(p.frame_mut(), Frame::new("", ""))).collect();
         let mut frames = std::mem::take(&mut self.frames);
         let outcome = self.pass(&mut frames, MAIN_LANE, count);
         for (pipeline, frame) in self.pipelines.iter_mut().zip(frames) {

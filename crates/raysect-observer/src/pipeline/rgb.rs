@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use raysect_math::MathError;
 use raysect_optical::Slicing;
-use raysect_optical::colour::{ciexyz_to_srgb, cie_observer, xyz_to_linear_srgb};
+use raysect_optical::colour::{CieObserver, ciexyz_to_srgb, xyz_to_linear_srgb};
 
 use super::{Measurement, Pipeline};
 use crate::file::{ExrLayer, save_png_rgb8};
@@ -15,6 +15,7 @@ use crate::{Frame, ObserverError};
 #[doc(alias = "RGBPipeline2D")]
 pub struct RgbPipeline2D {
     frame: Frame,
+    observer: CieObserver,
     exposure: Exposure,
     preview: Option<PathBuf>,
 }
@@ -37,7 +38,17 @@ impl Default for RgbPipeline2D {
 impl RgbPipeline2D {
     /// With automatic exposure in which no pixel is saturated.
     pub fn new() -> Self {
-        Self { frame: Frame::new("xyz", "W/m²/sr/nm"), exposure: Exposure::Automatic(1.0), preview: None }
+        Self {
+            frame: Frame::new("xyz", "W/m²/sr/nm"),
+            observer: CieObserver::default(),
+            exposure: Exposure::Automatic(1.0),
+            preview: None,
+        }
+    }
+
+    /// With another table of the CIE observer.
+    pub fn observer(self, observer: CieObserver) -> Self {
+        Self { observer, ..self }
     }
 
     /// With automatic exposure in which this share of the pixels, 0 … 1, is not saturated.
@@ -136,7 +147,7 @@ impl Pipeline for RgbPipeline2D {
 
     fn measure(&self, sample: &Measurement<'_>, out: &mut [f64]) {
         let width = sample.slice.bin_width();
-        for (out, curve) in out.iter_mut().zip(cie_observer()) {
+        for (out, curve) in out.iter_mut().zip(self.observer.curves()) {
             let sum: f64 = sample.radiance.iter().zip(sample.slice.table(curve)).map(|(l, c)| l * c).sum();
             *out += width * sum;
         }
