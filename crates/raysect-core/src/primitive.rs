@@ -59,6 +59,8 @@ pub struct SurfaceSample {
     pub point: Point3D,
     /// The outward unit normal there.
     pub normal: Normal3D,
+    /// Which piece of the surface.
+    pub feature: Feature,
     /// Density of the choice [1/m²].
     pub density: f64,
 }

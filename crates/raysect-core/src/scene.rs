@@ -4,7 +4,7 @@ use std::sync::Arc;
 use crate::accel::{Accelerator, TraversalRay};
 use crate::{
     Attachment, BoundingBox3D, Crossing, Departure, Feature, Intersection, Interval, NodeId, Primitive, Ray,
-    Scratch,
+    Scratch, SurfaceSample,
 };
 
 /// A shape placed in the world, with what is attached to it.
@@ -24,6 +24,8 @@ pub struct Instance<A> {
     /// The common factor of all lengths, if its transform is a similarity.
     pub similarity: Option<f64>,
     convex: bool,
+    /// One over the factor of a similarity.
+    shrink: f64,
     /// Largest stretch of a length by `to_world`, and the size of its translation [m]: what rounding acts upon.
     stretch: f64,
     shift: f64,
@@ -50,6 +52,7 @@ impl<A> Instance<A> {
             stretch: row(0).max(row(1)).max(row(2)),
             shift: to_world.origin().max_abs(),
             similarity: to_world.similarity_scale(),
+            shrink: to_world.similarity_scale().map_or(1.0, |scale| 1.0 / scale),
             primitive,
             attached,
             to_world,
@@ -122,13 +125,15 @@ const CLUSTER: usize = 4;
 /// through them already.
 #[derive(Debug, Clone, Copy)]
 pub struct Leaving {
-    instance: u32,
     departure: Departure,
+    instance: u32,
+    clustered: u32,
     zone: f64,
     arrived: Vector3D,
     towards: Vector3D,
-    cluster: [(u32, Vector3D); CLUSTER],
-    clustered: usize,
+    /// Instances that coincide here, and in which direction the ray went away from them: a sign is all that is
+    /// asked of it.
+    cluster: [(u32, [f32; 3]); CLUSTER],
 }
 
 impl Leaving {
@@ -142,26 +147,31 @@ impl Leaving {
             feature: surface.feature,
         };
         let mut leaving = Self {
-            instance: surface.instance,
             departure,
+            instance: surface.instance,
+            clustered: 0,
             zone: surface.bound / cosine.abs().max(1e-3),
             arrived,
             towards,
-            cluster: [(u32::MAX, Vector3D::ZERO); CLUSTER],
-            clustered: 0,
+            cluster: [(u32::MAX, [0.0; 3]); CLUSTER],
         };
         if let Some(before) = before.filter(|b| surface.distance <= b.zone) {
-            // The same place as before: keep in mind which way the ray has gone through what coincides here.
-            for &(instance, direction) in
-                before.cluster[..before.clustered].iter().chain([&(before.instance, before.towards)])
-            {
-                if instance != leaving.instance && leaving.clustered < CLUSTER {
-                    leaving.cluster[leaving.clustered] = (instance, direction);
-                    leaving.clustered += 1;
-                }
-            }
+            leaving.remember(before);
         }
         leaving
+    }
+
+    /// Takes over what coincides here: the same place as before, left anew.
+    #[cold]
+    fn remember(&mut self, before: &Self) {
+        let towards = before.towards.to_array().map(|x| x as f32);
+        let known = &before.cluster[..before.clustered as usize];
+        for &(instance, direction) in known.iter().chain([&(before.instance, towards)]) {
+            if instance != self.instance && (self.clustered as usize) < CLUSTER {
+                self.cluster[self.clustered as usize] = (instance, direction);
+                self.clustered += 1;
+            }
+        }
     }
 
     /// Number of the instance that is being left.
@@ -173,10 +183,10 @@ impl Leaving {
     #[cold]
     fn pending(&self, instance: u32, normal: Vector3D) -> bool {
         let ahead = normal.dot(self.towards);
-        let known = self.cluster[..self.clustered].iter().rev().find(|(i, _)| *i == instance);
+        let known = self.cluster[..self.clustered as usize].iter().rev().find(|(i, _)| *i == instance);
         match known {
             // It has been dealt with, and comes again only if the ray has turned back.
-            Some((_, direction)) => normal.dot(*direction) * ahead < 0.0,
+            Some((_, direction)) => normal.dot(direction.map(f64::from)) * ahead < 0.0,
             None => normal.dot(self.arrived) * ahead > 0.0,
         }
     }
@@ -288,7 +298,11 @@ impl<A: Attachment> Scene<A> {
         let instance = &self.instances[hit.instance as usize];
         let local = instance.primitive.surface(&instance.local(ray), &hit.crossing);
         let point = instance.to_world.transform_point(local.point);
-        let upright = |n: Normal3D| instance.to_local.transform_normal_with_inverse(n).normalise_unchecked();
+        let upright = |n: Normal3D| match instance.similarity {
+            // A similarity turns normals like vectors and stretches them by a known factor.
+            Some(_) => Normal3D::from(instance.to_world.transform_vector(n.as_vector()) * instance.shrink),
+            None => instance.to_local.transform_normal_with_inverse(n).normalise_unchecked(),
+        };
         let normal = upright(local.normal);
         let shading_normal =
             if local.shading_normal == local.normal { normal } else { upright(local.shading_normal) };
@@ -305,6 +319,40 @@ impl<A: Attachment> Scene<A> {
             exiting: hit.crossing.exiting,
             feature: hit.crossing.feature,
         }
+    }
+
+    /// The surface at a point that was drawn on an instance, as a ray from `from` along the unit vector `direction`
+    /// meets it at `distance`.
+    pub fn sampled_surface(
+        &self,
+        index: u32,
+        sample: &SurfaceSample,
+        direction: Vector3D,
+        distance: f64,
+    ) -> SurfacePoint {
+        let instance = &self.instances[index as usize];
+        let point = instance.to_world.transform_point(sample.point);
+        let normal = match instance.similarity {
+            Some(_) => Normal3D::from(instance.to_world.transform_vector(sample.normal.as_vector()) * instance.shrink),
+            None => instance.to_local.transform_normal_with_inverse(sample.normal).normalise_unchecked(),
+        };
+        let reach = point.max_abs() + instance.stretch * sample.point.max_abs() + instance.shift;
+        SurfacePoint {
+            instance: index,
+            point,
+            local_point: sample.point,
+            normal,
+            shading_normal: normal,
+            bound: 16.0 * f64::EPSILON * reach,
+            distance,
+            exiting: normal.dot(direction) > 0.0,
+            feature: sample.feature,
+        }
+    }
+
+    /// True if a straight line crosses an instance at most twice.
+    pub fn is_convex(&self, index: u32) -> bool {
+        self.instances[index as usize].convex
     }
 
     /// A hit as the user of a world sees it.

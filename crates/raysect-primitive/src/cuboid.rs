@@ -24,12 +24,15 @@ pub struct Cuboid {
     lower: Point3D,
     upper: Point3D,
     sheet: Option<usize>,
+    centre: [f64; 3],
+    /// Of a face across each axis [m²].
+    areas: [f64; 3],
 }
 
 impl Default for Cuboid {
     /// From −0.5 m to 0.5 m along every axis.
     fn default() -> Self {
-        Self { lower: Point3D::new(-0.5, -0.5, -0.5), upper: Point3D::new(0.5, 0.5, 0.5), sheet: None }
+        Self::of(Point3D::new(-0.5, -0.5, -0.5), Point3D::new(0.5, 0.5, 0.5), None)
     }
 }
 
@@ -67,7 +70,14 @@ impl Cuboid {
         if flat.next().is_some() {
             return wrong("two extents of zero leave no surface");
         }
-        Ok(Self { lower, upper, sheet })
+        Ok(Self::of(lower, upper, sheet))
+    }
+
+    fn of(lower: Point3D, upper: Point3D, sheet: Option<usize>) -> Self {
+        let extent = lower.vector_to(upper);
+        let centre = [0, 1, 2].map(|a| 0.5 * lower[a] + 0.5 * upper[a]);
+        let areas = [extent.y * extent.z, extent.z * extent.x, extent.x * extent.y];
+        Self { lower, upper, sheet, centre, areas }
     }
 
     /// Of given extents along the axes, centred on the origin [m].
@@ -93,13 +103,28 @@ impl Cuboid {
         self.sheet.is_some()
     }
 
+    /// The outward unit normal of a face.
+    #[inline]
+    fn normal(axis: usize, upper: bool) -> Normal3D {
+        let sign = if upper { 1.0 } else { -1.0 };
+        match axis {
+            0 => Normal3D::new(sign, 0.0, 0.0),
+            1 => Normal3D::new(0.0, sign, 0.0),
+            _ => Normal3D::new(0.0, 0.0, sign),
+        }
+    }
+
     /// The common interval of the three slabs, possibly empty (`near > far`); none if the ray runs beside a slab.
     #[inline]
     fn passage(&self, ray: &Ray) -> Option<Passage> {
         let mut p = Passage { near: f64::NEG_INFINITY, far: f64::INFINITY, entry: 0, exit: 0 };
-        for axis in 0..3 {
-            let (o, d) = (ray.origin[axis], ray.direction[axis]);
-            let (low, high) = (self.lower[axis], self.upper[axis]);
+        let (o, d) = (ray.origin, ray.direction);
+        let slabs = [
+            (o.x, d.x, self.lower.x, self.upper.x),
+            (o.y, d.y, self.lower.y, self.upper.y),
+            (o.z, d.z, self.lower.z, self.upper.z),
+        ];
+        for (axis, (o, d, low, high)) in slabs.into_iter().enumerate() {
             if d == 0.0 {
                 if o < low || o > high || self.sheet == Some(axis) {
                     return None;
@@ -124,38 +149,42 @@ impl Cuboid {
     }
 
     /// A sheet is crossed once, and always by the face that looks at the ray.
+    #[inline]
     fn sheet_crossing(&self, axis: usize, ray: &Ray) -> Option<Crossing> {
-        let p = self.passage(ray).filter(|p| p.near <= p.far)?;
-        // The line meets the plane of the sheet within the other two slabs, so that is where it is hit.
-        let t = (self.lower[axis] - ray.origin[axis]) / ray.direction[axis];
-        (t >= p.near && t <= p.far)
-            .then(|| Self::crossing(t, face_number(axis, ray.direction[axis] < 0.0), false))
-    }
-
-    /// Area [m²] and centre [m] of a face.
-    fn face(&self, axis: usize, upper: bool) -> (f64, Point3D) {
-        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
-        let area = (self.upper[a] - self.lower[a]) * (self.upper[b] - self.lower[b]);
-        let mut centre = Point3D::ORIGIN;
-        for i in 0..3 {
-            centre[i] = 0.5 * self.lower[i] + 0.5 * self.upper[i];
+        let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
+        if d[axis] == 0.0 {
+            return None;
         }
-        centre[axis] = if upper { self.upper[axis] } else { self.lower[axis] };
-        (area, centre)
+        let t = (self.lower.to_array()[axis] - o[axis]) / d[axis];
+        let (x, y, z) = (o[0] + t * d[0], o[1] + t * d[1], o[2] + t * d[2]);
+        let (low, high) = (self.lower, self.upper);
+        // The coordinate across the sheet is met by construction, whatever rounding makes of it here.
+        let within = (axis == 0 || (x >= low.x && x <= high.x))
+            && (axis == 1 || (y >= low.y && y <= high.y))
+            && (axis == 2 || (z >= low.z && z <= high.z));
+        within.then(|| Self::crossing(t, face_number(axis, d[axis] < 0.0), false))
     }
 
-    /// The face across each axis that is visible from a point, with the weight of its choice: the solid angle
-    /// that it would subtend if it were small.
-    fn visible(&self, from: Point3D) -> [(f64, bool); 3] {
-        std::array::from_fn(|axis| {
-            let upper = from[axis] > self.upper[axis];
-            if !upper && from[axis] >= self.lower[axis] {
-                return (0.0, upper);
+    /// The face across each axis that is visible from a point, with the weight of its choice: the solid angle that
+    /// it would subtend if it were small; and the sum of the weights.
+    #[inline]
+    fn visible(&self, from: Point3D) -> ([(f64, bool); 3], f64) {
+        let (from, low, high) = (from.to_array(), self.lower.to_array(), self.upper.to_array());
+        let sides: [(bool, bool); 3] = std::array::from_fn(|a| (from[a] > high[a], from[a] < low[a]));
+        if sides.iter().filter(|s| s.0 || s.1).count() == 1 {
+            // The only visible face needs no weight.
+            return (sides.map(|(upper, lower)| (if upper || lower { 1.0 } else { 0.0 }, upper)), 1.0);
+        }
+        let mut faces = [(0.0, false); 3];
+        for (axis, (upper, lower)) in sides.into_iter().enumerate() {
+            if upper || lower {
+                let mut offset: [f64; 3] = std::array::from_fn(|a| from[a] - self.centre[a]);
+                offset[axis] = from[axis] - if upper { high[axis] } else { low[axis] };
+                let squared = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
+                faces[axis] = (self.areas[axis] * offset[axis].abs() / (squared * squared.sqrt()), upper);
             }
-            let (area, centre) = self.face(axis, upper);
-            let distance = from.distance_to(centre);
-            (area * (from[axis] - centre[axis]).abs() / (distance * distance * distance), upper)
-        })
+        }
+        (faces, faces[0].0 + faces[1].0 + faces[2].0)
     }
 }
 
@@ -201,19 +230,13 @@ impl Primitive for Cuboid {
     #[inline]
     fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
         let (axis, upper) = ((crossing.feature.face / 2) as usize, crossing.feature.face % 2 == 1);
-        let mut point = ray.point_at(crossing.distance);
-        for a in 0..3 {
-            point[a] = point[a].clamp(self.lower[a], self.upper[a]);
-        }
-        point[axis] = if upper { self.upper[axis] } else { self.lower[axis] };
-        let sign = if upper { 1.0 } else { -1.0 };
-        let normal = match axis {
-            0 => Normal3D::new(sign, 0.0, 0.0),
-            1 => Normal3D::new(0.0, sign, 0.0),
-            _ => Normal3D::new(0.0, 0.0, sign),
-        };
+        let (low, high) = (self.lower, self.upper);
+        let p = ray.point_at(crossing.distance);
+        let mut point = [p.x.clamp(low.x, high.x), p.y.clamp(low.y, high.y), p.z.clamp(low.z, high.z)];
+        point[axis % 3] = if upper { high.to_array()[axis % 3] } else { low.to_array()[axis % 3] };
+        let normal = Self::normal(axis, upper);
         // The point lies in the plane of the face exactly.
-        Surface { point, normal, shading_normal: normal, bound: 0.0 }
+        Surface { point: point.into(), normal, shading_normal: normal, bound: 0.0 }
     }
 
     fn is_solid(&self) -> bool {
@@ -229,8 +252,7 @@ impl Primitive for Cuboid {
     }
 
     fn sample_surface(&self, from: Point3D, u: [f64; 3]) -> Option<SurfaceSample> {
-        let faces = self.visible(from);
-        let total: f64 = faces.iter().map(|f| f.0).sum();
+        let (faces, total) = self.visible(from);
         let mut rest = u[0] * total;
         let chosen = (0..3).filter(|&a| faces[a].0 > 0.0).find(|&a| {
             rest -= faces[a].0;
@@ -238,28 +260,26 @@ impl Primitive for Cuboid {
         });
         let axis = chosen.or_else(|| (0..3).rfind(|&a| faces[a].0 > 0.0))?;
         let (weight, upper) = faces[axis];
-        let (area, mut point) = self.face(axis, upper);
+        let (low, high) = (self.lower.to_array(), self.upper.to_array());
+        let mut point = [0.0; 3];
+        point[axis] = if upper { high[axis] } else { low[axis] };
         for (i, u) in [((axis + 1) % 3, u[1]), ((axis + 2) % 3, u[2])] {
-            point[i] = self.lower[i] + u * (self.upper[i] - self.lower[i]);
+            point[i] = low[i] + u * (high[i] - low[i]);
         }
-        let sign = if upper { 1.0 } else { -1.0 };
-        let normal = Normal3D::new(
-            if axis == 0 { sign } else { 0.0 },
-            if axis == 1 { sign } else { 0.0 },
-            if axis == 2 { sign } else { 0.0 },
-        );
-        Some(SurfaceSample { point, normal, density: weight / total / area })
+        let (point, area) = (Point3D::from(point), self.areas[axis]);
+        let feature = Feature { face: face_number(axis, upper), ..Feature::default() };
+        let normal = Self::normal(axis, upper);
+        Some(SurfaceSample { point, normal, feature, density: weight / total / area })
     }
 
     fn surface_density(&self, from: Point3D, _: Point3D, feature: Feature) -> f64 {
         let (axis, upper) = ((feature.face / 2) as usize, feature.face % 2 == 1);
-        let faces = self.visible(from);
-        let total: f64 = faces.iter().map(|f| f.0).sum();
+        let (faces, total) = self.visible(from);
         let (weight, visible_side) = faces[axis];
         if weight == 0.0 || upper != visible_side {
             return 0.0;
         }
-        weight / total / self.face(axis, upper).0
+        weight / total / self.areas[axis]
     }
 }
 

@@ -1,3 +1,4 @@
+use fearless_simd::{Level, Select, Simd, dispatch, f64x4, prelude::*};
 use raysect_math::Point3D;
 
 use super::{Accelerator, TraversalRay, Visitor};
@@ -5,27 +6,101 @@ use crate::BoundingBox3D;
 
 /// Tests the box of every instance: the fastest structure for a handful of them.
 #[derive(Debug)]
+#[doc(alias = "Unaccelerated")]
 pub struct List {
     boxes: Vec<BoundingBox3D>,
+    groups: Vec<Group>,
+    level: Level,
 }
 
-impl List {
-    /// Over boxes [m].
-    pub fn new(boxes: &[BoundingBox3D]) -> Self {
-        Self { boxes: boxes.to_vec() }
+/// Boxes that are tested side by side.
+const LANES: usize = 4;
+
+/// The lower and the upper coordinates of several boxes, axis by axis.
+#[derive(Debug, Clone, Copy)]
+struct Group([[[f64; LANES]; 3]; 2]);
+
+impl Group {
+    fn new(boxes: &[BoundingBox3D]) -> Self {
+        let of = |lane: usize| boxes.get(lane).copied().unwrap_or(BoundingBox3D::EMPTY);
+        let plane = |pick: fn(&BoundingBox3D) -> Point3D, axis: usize| std::array::from_fn(|l| pick(&of(l))[axis]);
+        let side = |pick: fn(&BoundingBox3D) -> Point3D| [plane(pick, 0), plane(pick, 1), plane(pick, 2)];
+        Self([side(|b| b.lower), side(|b| b.upper)])
+    }
+
+    /// Distances at which the ray enters each box, and one bit for each box that it meets up to `limit`: the same
+    /// test as [`TraversalRay::enter`], to the bit. Comparisons with a NaN are false, which drops the NaN.
+    #[inline(always)]
+    fn enter<S: Simd>(&self, simd: S, ray: &PreparedRay<S>, limit: f64) -> ([f64; LANES], u64) {
+        const GROW: f64 = 1.0 + 8.0 * f64::EPSILON;
+        let (mut first, mut last) = (ray.min, f64x4::splat(simd, f64::INFINITY));
+        for axis in 0..3 {
+            let distance = |side: bool| {
+                (f64x4::from_slice(simd, &self.0[usize::from(side)][axis]) - ray.origin[axis]) * ray.inverse[axis]
+            };
+            let (near, far) = (distance(ray.backward[axis]), distance(!ray.backward[axis]));
+            first = near.simd_gt(first).select(near, first);
+            last = far.simd_lt(last).select(far, last);
+        }
+        let grown = last * GROW;
+        last = grown.simd_gt(last).select(grown, last);
+        let met = first.simd_le(last) & first.simd_le(f64x4::splat(simd, limit));
+        (first.into(), met.to_bitmask())
     }
 }
 
-impl Accelerator for List {
-    fn visit(&self, ray: &TraversalRay, mut limit: f64, visitor: &mut Visitor<'_>) {
-        for (index, b) in self.boxes.iter().enumerate() {
-            if ray.enter(b, limit).is_some() {
-                limit = visitor(index as u32, limit);
+/// A ray in every lane.
+struct PreparedRay<S: Simd> {
+    origin: [f64x4<S>; 3],
+    inverse: [f64x4<S>; 3],
+    min: f64x4<S>,
+    backward: [bool; 3],
+}
+
+impl<S: Simd> PreparedRay<S> {
+    #[inline(always)]
+    fn new(simd: S, ray: &TraversalRay) -> Self {
+        let each = |v: [f64; 3]| {
+            [f64x4::splat(simd, v[0]), f64x4::splat(simd, v[1]), f64x4::splat(simd, v[2])]
+        };
+        Self {
+            origin: each(ray.origin.to_array()),
+            inverse: each(ray.inverse.to_array()),
+            min: f64x4::splat(simd, ray.min),
+            backward: ray.backward,
+        }
+    }
+}
+
+#[inline(always)]
+fn walk<S: Simd>(simd: S, groups: &[Group], ray: &TraversalRay, mut limit: f64, visitor: &mut Visitor<'_>) {
+    let prepared = PreparedRay::new(simd, ray);
+    for (number, group) in groups.iter().enumerate() {
+        let (first, mut met) = group.enter(simd, &prepared, limit);
+        while met != 0 {
+            let lane = met.trailing_zeros() as usize;
+            met &= met - 1;
+            if first[lane] <= limit {
+                limit = visitor((number * LANES + lane) as u32, limit);
                 if limit < ray.min {
                     return;
                 }
             }
         }
+    }
+}
+
+impl List {
+    /// Over boxes [m].
+    pub fn new(boxes: &[BoundingBox3D]) -> Self {
+        let groups = boxes.chunks(LANES).map(Group::new).collect();
+        Self { boxes: boxes.to_vec(), groups, level: Level::new() }
+    }
+}
+
+impl Accelerator for List {
+    fn visit(&self, ray: &TraversalRay, limit: f64, visitor: &mut Visitor<'_>) {
+        dispatch!(self.level, simd => walk(simd, &self.groups, ray, limit, visitor));
     }
 
     fn visit_containing(&self, point: Point3D, visitor: &mut dyn FnMut(u32)) {

@@ -22,6 +22,16 @@ pub struct TraversalRay {
     pub inverse: Vector3D,
     /// Boxes that end before this distance are passed over; a little below 0 for a ray that leaves a surface.
     pub min: f64,
+    /// For each axis, true if the ray meets the upper face first.
+    backward: [bool; 3],
+}
+
+/// A box as traversal wants it: the lower and the upper coordinates, picked by the sign of the ray.
+pub type Slabs = [[f64; 3]; 2];
+
+/// The faces of a box.
+pub fn slabs(b: &BoundingBox3D) -> Slabs {
+    [b.lower.to_array(), b.upper.to_array()]
 }
 
 impl TraversalRay {
@@ -29,30 +39,26 @@ impl TraversalRay {
     #[inline]
     pub fn new(ray: &Ray, min: f64) -> Self {
         let d = ray.direction;
-        Self { origin: ray.origin, inverse: Vector3D::new(1.0 / d.x, 1.0 / d.y, 1.0 / d.z), min }
+        let inverse = Vector3D::new(1.0 / d.x, 1.0 / d.y, 1.0 / d.z);
+        let backward = [inverse.x < 0.0, inverse.y < 0.0, inverse.z < 0.0];
+        Self { origin: ray.origin, inverse, min, backward }
     }
 
     /// Distance at which the ray enters the box, if it meets it between `min` and `limit`.
     ///
     /// The order of the operands drops the NaN of 0 · ∞ (a ray in the plane of a face meets the box), and the far
     /// distance is enlarged by the rounding of the test (T. Ize, *Robust BVH Ray Traversal*, JCGT 2(2), 2013).
-    #[inline]
-    pub fn enter(&self, b: &BoundingBox3D, limit: f64) -> Option<f64> {
+    #[inline(always)]
+    pub fn enter(&self, b: &Slabs, limit: f64) -> Option<f64> {
         const GROW: f64 = 1.0 + 8.0 * f64::EPSILON;
-        let (mut near, mut far) = (self.min, limit);
-        let o = self.origin;
-        for (o, i, low, high) in [
-            (o.x, self.inverse.x, b.lower.x, b.upper.x),
-            (o.y, self.inverse.y, b.lower.y, b.upper.y),
-            (o.z, self.inverse.z, b.lower.z, b.upper.z),
-        ] {
-            let (a, b) = ((low - o) * i, (high - o) * i);
-            let (first, last) = if a < b { (a, b) } else { (b, a) };
-            let last = last * GROW;
-            near = if first > near { first } else { near };
-            far = if last < far { last } else { far };
-        }
-        (near <= far).then_some(near)
+        let (o, i, s) = (self.origin, self.inverse, self.backward);
+        let near = |axis: usize, o: f64, i: f64| (b[usize::from(s[axis])][axis] - o) * i;
+        let far = |axis: usize, o: f64, i: f64| (b[usize::from(!s[axis])][axis] - o) * i;
+        let larger = |a: f64, b: f64| if a > b { a } else { b };
+        let smaller = |a: f64, b: f64| if a < b { a } else { b };
+        let first = larger(near(2, o.z, i.z), larger(near(1, o.y, i.y), larger(near(0, o.x, i.x), self.min)));
+        let last = smaller(far(2, o.z, i.z), smaller(far(1, o.y, i.y), smaller(far(0, o.x, i.x), f64::INFINITY)));
+        (first <= smaller(larger(last * GROW, last), limit)).then_some(first)
     }
 }
 

@@ -1,6 +1,6 @@
 use raysect_math::Point3D;
 
-use super::{Accelerator, TraversalRay, Visitor};
+use super::{Accelerator, Slabs, TraversalRay, Visitor, slabs};
 use crate::BoundingBox3D;
 
 /// A binary hierarchy of boxes, split by the surface area heuristic (I. Wald, *On fast Construction of SAH-based
@@ -10,14 +10,23 @@ pub struct Tree {
     nodes: Vec<TreeNode>,
     order: Vec<u32>,
     boxes: Vec<BoundingBox3D>,
+    slabs: Vec<Slabs>,
 }
 
 #[derive(Debug, Clone, Copy)]
 struct TreeNode {
     bounds: BoundingBox3D,
+    slabs: Slabs,
     /// A leaf holds `order[first..first + count]`; a branch (count 0) has the children `first` and `first + 1`.
     first: u32,
     count: u32,
+}
+
+impl TreeNode {
+    fn new(first: u32, count: u32) -> Self {
+        let bounds = BoundingBox3D::EMPTY;
+        Self { bounds, slabs: slabs(&bounds), first, count }
+    }
 }
 
 const BINS: usize = 16;
@@ -32,8 +41,9 @@ impl Tree {
     /// Over boxes [m].
     pub fn new(boxes: &[BoundingBox3D]) -> Self {
         let order: Vec<u32> = (0..boxes.len() as u32).filter(|&i| !boxes[i as usize].is_empty()).collect();
-        let root = TreeNode { bounds: BoundingBox3D::EMPTY, first: 0, count: order.len() as u32 };
-        let mut tree = Self { nodes: vec![root], order, boxes: boxes.to_vec() };
+        let root = TreeNode::new(0, order.len() as u32);
+        let slabs = boxes.iter().map(slabs).collect();
+        let mut tree = Self { nodes: vec![root], order, boxes: boxes.to_vec(), slabs };
         tree.split(0, 0);
         tree
     }
@@ -46,6 +56,7 @@ impl Tree {
         };
         let bounds = union(members);
         self.nodes[node].bounds = bounds;
+        self.nodes[node].slabs = slabs(&bounds);
         if count <= LEAF {
             return;
         }
@@ -61,8 +72,7 @@ impl Tree {
         };
         let children = self.nodes.len();
         for (start, end) in [(first, middle), (middle, first + count)] {
-            let (first, count) = (start as u32, (end - start) as u32);
-            self.nodes.push(TreeNode { bounds: BoundingBox3D::EMPTY, first, count });
+            self.nodes.push(TreeNode::new(start as u32, (end - start) as u32));
         }
         self.nodes[node].first = children as u32;
         self.nodes[node].count = 0;
@@ -115,7 +125,7 @@ impl Accelerator for Tree {
         if self.order.is_empty() {
             return;
         }
-        if let Some(near) = ray.enter(&self.nodes[0].bounds, limit) {
+        if let Some(near) = ray.enter(&self.nodes[0].slabs, limit) {
             stack[0] = (0, near);
             height = 1;
         }
@@ -128,7 +138,7 @@ impl Accelerator for Tree {
             let node = &self.nodes[index as usize];
             if node.count > 0 {
                 for &i in self.leaf(node) {
-                    if ray.enter(&self.boxes[i as usize], limit).is_some() {
+                    if ray.enter(&self.slabs[i as usize], limit).is_some() {
                         limit = visitor(i, limit);
                         if limit < ray.min {
                             return;
@@ -139,7 +149,7 @@ impl Accelerator for Tree {
             }
             let children = [node.first, node.first + 1];
             let [a, b] =
-                children.map(|c| ray.enter(&self.nodes[c as usize].bounds, limit).map(|near| (c, near)));
+                children.map(|c| ray.enter(&self.nodes[c as usize].slabs, limit).map(|near| (c, near)));
             let (nearer, farther) = match (a, b) {
                 (Some(a), Some(b)) if b.1 < a.1 => (Some(b), Some(a)),
                 (a, b) => (a, b),

@@ -24,8 +24,8 @@ pub struct LightSample {
     pub direction: Vector3D,
     /// Density of the choice, that of the light included [1/sr].
     pub density: f64,
-    /// Distance to the point that was drawn [m]; infinite where only a direction was.
-    pub distance: f64,
+    /// The point that was drawn; none where only a direction was.
+    pub surface: Option<SurfacePoint>,
 }
 
 impl Light {
@@ -62,16 +62,19 @@ impl Light {
 
     /// World area of the image of a unit of local area with a given unit normal.
     fn area_scale(&self, instance: &Instance<Optics>, normal: Normal3D) -> f64 {
+        if let Some(scale) = instance.similarity {
+            return scale * scale;
+        }
         self.volume_scale * instance.to_local.transform_normal_with_inverse(normal).length()
     }
 
-    fn sample(&self, scene: &Scene, from: Point3D, rng: &mut Rng) -> Option<(Vector3D, f64, f64)> {
+    fn sample(&self, scene: &Scene, from: Point3D, rng: &mut Rng) -> Option<(Vector3D, f64, Option<SurfacePoint>)> {
         let instance = &scene.instances[self.instance as usize];
         let local_from = instance.to_local.transform_point(from);
         if self.sampling == SurfaceSampling::SolidAngle {
             let s = instance.primitive.sample_direction(local_from, [rng.uniform(), rng.uniform()])?;
             let direction = instance.to_world.transform_vector(s.direction).normalise_unchecked();
-            return Some((direction, s.density, f64::INFINITY));
+            return Some((direction, s.density, None));
         }
         let u = [rng.uniform(), rng.uniform(), rng.uniform()];
         let s = instance.primitive.sample_surface(local_from, u)?;
@@ -79,13 +82,12 @@ impl Light {
         let squared = to.length_squared();
         let distance = squared.sqrt();
         let direction = to * (1.0 / distance);
-        let normal = instance.to_local.transform_normal_with_inverse(s.normal);
-        let stretched = normal.length();
-        let cosine = normal.dot(direction).abs() / stretched;
+        let surface = scene.sampled_surface(self.instance, &s, direction, distance);
+        let cosine = surface.normal.dot(direction).abs();
         if cosine == 0.0 || distance == 0.0 {
             return None;
         }
-        Some((direction, s.density / (self.volume_scale * stretched) * squared / cosine, distance))
+        Some((direction, s.density / self.area_scale(instance, s.normal) * squared / cosine, Some(surface)))
     }
 
     /// Density [1/sr] with which a surface point on the light is found by sampling from a point.
@@ -101,6 +103,10 @@ impl Light {
         if local == 0.0 || cosine == 0.0 {
             return 0.0;
         }
+        if let Some(scale) = instance.similarity {
+            let squared = from.vector_to(surface.point).length_squared();
+            return local / (scale * scale) * squared / cosine;
+        }
         // The local unit normal is the image of the world's, brought back to length one.
         let local_normal =
             instance.to_world.transform_normal_with_inverse(surface.normal).normalise_unchecked();
@@ -112,12 +118,19 @@ impl Light {
 /// Draws a light and a direction towards it; none if no light can be sampled from there.
 pub(crate) fn sample_lights(scene: &Scene, from: Point3D, rng: &mut Rng) -> Option<LightSample> {
     let lights = &scene.compiled.lights;
+    if let [light] = &lights[..] {
+        if light.weight(scene, from) == 0.0 {
+            return None;
+        }
+        let (direction, density, surface) = light.sample(scene, from, rng)?;
+        return Some(LightSample { light: 0, direction, density, surface });
+    }
     let total: f64 = lights.iter().map(|l| l.weight(scene, from)).sum();
     if total.is_nan() || total <= 0.0 {
         return None;
     }
     let mut chosen = None;
-    let mut rest = if lights.len() > 1 { rng.uniform() * total } else { 0.0 };
+    let mut rest = rng.uniform() * total;
     for (index, light) in lights.iter().enumerate() {
         let weight = light.weight(scene, from);
         if weight > 0.0 {
@@ -129,8 +142,8 @@ pub(crate) fn sample_lights(scene: &Scene, from: Point3D, rng: &mut Rng) -> Opti
         }
     }
     let (index, weight) = chosen?;
-    let (direction, density, distance) = lights[index].sample(scene, from, rng)?;
-    Some(LightSample { light: index as u32, direction, density: density * weight / total, distance })
+    let (direction, density, surface) = lights[index].sample(scene, from, rng)?;
+    Some(LightSample { light: index as u32, direction, density: density * weight / total, surface })
 }
 
 /// Density [1/sr] with which [`sample_lights`] finds a point on a light.

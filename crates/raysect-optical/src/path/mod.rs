@@ -238,8 +238,8 @@ impl<'a> Path<'a> {
     /// (J. Arvo and D. Kirk, *Particle Transport and Image Synthesis*, SIGGRAPH 1990). Also ends paths that are too
     /// deep, which is not fair and therefore reported.
     fn survives(&mut self) -> bool {
-        let largest = self.throughput.iter().fold(0.0, |a: f64, b| a.max(*b));
-        if largest.is_nan() || largest <= 0.0 {
+        let largest = self.throughput.iter().fold(0.0, |a: f64, &b| if b > a { b } else { a });
+        if largest <= 0.0 {
             self.ledger.absorbed += 1;
             return false;
         }

@@ -1,6 +1,6 @@
 //! Scattering into a range of directions: light sampling, important directions and roulette for every material.
 
-use raysect_core::{Leaving, Ray, SurfacePoint};
+use raysect_core::{Candidate, Leaving, Ray, SurfacePoint};
 use raysect_math::{Frame, Vector3D};
 
 use super::{LightSampling, Path, heuristic, unit};
@@ -98,26 +98,32 @@ impl Path<'_> {
         let leaving = Leaving::new(&hit.surface, hit.direction, light.direction, self.leaving.as_ref());
         let ray = Ray::new(hit.surface.point, light.direction);
         self.ledger.shadow_rays += 1;
-        let Some(crossing) =
-            scene.hit_instance(instance, &ray, Some(&leaving), f64::INFINITY, &mut self.scratch)
-        else {
-            return;
+        let surface = match light.surface {
+            Some(surface) => surface,
+            None => {
+                let crossing =
+                    scene.hit_instance(instance, &ray, Some(&leaving), f64::INFINITY, &mut self.scratch);
+                let Some(crossing) = crossing else { return };
+                scene.finish(&ray, &Candidate { instance, crossing })
+            }
         };
-        // The drawn point may lie behind another part of its own light.
-        if light.distance.is_finite() && crossing.distance < light.distance * (1.0 - 1e-6) {
-            return;
-        }
-        let ray = ray.with_max_distance(crossing.distance);
-        let candidate = raysect_core::Candidate { instance, crossing };
-        let compiled = &scene.compiled;
-        if compiled.any_transparent || compiled.any_medium {
+        let ray = ray.with_max_distance(surface.distance);
+        let into_medium = self.scene.compiled.any_medium && hit.leads_through(light.direction);
+        if self.scene.compiled.any_transparent || into_medium || !self.media.is_empty() {
             if !self.walk_to_light(hit, &ray, &leaving, instance) {
                 return;
             }
-        } else if scene.is_blocked(&ray, Some(&leaving), &mut self.scratch, |i| i != instance) {
-            return;
+        } else {
+            // A point drawn on a light that is not convex may lie behind another part of it.
+            let own = light.surface.is_some() && !scene.is_convex(instance);
+            let short = ray.with_max_distance(surface.distance * (1.0 - 1e-9));
+            if own && scene.is_blocked(&short, Some(&leaving), &mut self.scratch, |i| i == instance) {
+                return;
+            }
+            if scene.is_blocked(&ray, Some(&leaving), &mut self.scratch, |i| i != instance) {
+                return;
+            }
         }
-        let surface = scene.finish(&ray, &candidate);
         let at = SurfaceHit { surface, direction: light.direction };
         let material = scene.instances[instance as usize].attached.material();
         let context =
@@ -143,7 +149,11 @@ impl Path<'_> {
             let next = scene.hit(&ray, Some(&leaving), &mut self.scratch);
             let distance = next.map_or(ray.max_distance, |h| h.crossing.distance);
             self.attenuate_shadow(&media, &ray, distance);
-            let Some(next) = next.filter(|n| n.instance != light) else { return true };
+            let Some(next) = next else { return true };
+            if next.instance == light {
+                // Unless this is another part of the light, in front of the point that was drawn.
+                return scene.is_convex(light) || distance >= ray.max_distance * (1.0 - 1e-9);
+            }
             let surface: SurfacePoint = scene.finish(&ray, &next);
             if !scene.compiled.facts[next.instance as usize].transparent
                 && self.is_interface(&media, &surface)
