@@ -40,13 +40,14 @@ impl Probe {
         Self { settings: PathSettings::default(), seed: 1, count }
     }
 
-    /// With another search for light; three quarters of the paths aim where there is something to aim at.
-    pub(crate) fn light(mut self, sampling: LightSampling) -> Self {
-        self.settings = self.settings.light_sampling(sampling);
-        if sampling == LightSampling::BoundingSpheres {
-            self.settings = self.settings.important_path_weight(0.75).unwrap();
-        }
-        self
+    /// With another search for light.
+    pub(crate) fn light(self, sampling: LightSampling) -> Self {
+        Self { settings: self.settings.light_sampling(sampling), ..self }
+    }
+
+    /// With another share of paths that are aimed at what is important.
+    pub(crate) fn aim(self, share: f64) -> Self {
+        Self { settings: self.settings.important_path_weight(share).unwrap(), ..self }
     }
 
     /// With another seed.
@@ -54,9 +55,14 @@ impl Probe {
         Self { seed, ..self }
     }
 
+    /// With roulette below another throughput.
+    pub(crate) fn roulette(self, threshold: f64) -> Self {
+        Self { settings: self.settings.roulette_threshold(threshold).unwrap(), ..self }
+    }
+
     /// Without roulette.
     pub(crate) fn without_roulette(self) -> Self {
-        Self { settings: self.settings.roulette_threshold(0.0).unwrap(), ..self }
+        self.roulette(0.0)
     }
 
     /// With another greatest depth.
@@ -141,8 +147,9 @@ pub(crate) fn check(expected: f64, demand: Demand, reading: &Reading) -> Result<
         let off = [reading.lowest, reading.highest].into_iter().find(|v| (v - expected).abs() > rounding);
         return off.map_or(Ok(()), |v| Err(Rejection::PathOff(v)));
     }
-    if error > NOISE * expected.abs() {
-        return Err(Rejection::Noisy(error / expected.abs()));
+    let relative = error / mean.abs().max(expected.abs());
+    if relative > NOISE {
+        return Err(Rejection::Noisy(relative));
     }
     if (mean - expected).abs() > SIGMAS * error + rounding {
         return Err(Rejection::MeanOff((mean - expected) / error));

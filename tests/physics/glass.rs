@@ -1,6 +1,7 @@
 //! Surfaces and volumes of glass.
 
-use raysect::core::Node;
+use raysect::core::{Node, Ray};
+use raysect::math::{AffineMatrix3D, Point3D, Vector3D, rotate, translate};
 use raysect::optical::{AbsorbingSurface, Dielectric, Optics, WithMaterial, World};
 
 use crate::check::{Demand, Probe, Reading, accept, expected};
@@ -27,7 +28,7 @@ fn under_a_lamp(layers: impl IntoIterator<Item = Node<Optics>>) -> World {
 fn upwards(world: &World, degrees: f64, count: u64) -> Reading {
     let direction = tilted(degrees);
     let [x, y, z] = times(direction, -3.0);
-    Probe::new(count).along(world, [x + 0.3, y + 0.2, z], direction)
+    Probe::new(count).seed(21).along(world, [x + 0.3, y + 0.2, z], direction)
 }
 
 /// Unpolarised reflectance at an angle [deg] in the first of two media, by Fresnel's formulae of sums and
@@ -68,10 +69,10 @@ fn o05_o06_fresnel_reflectance() {
     let halfspace = cuboid([-400.0, -400.0, -200.0], [400.0, 400.0, 0.0]).material(glass(1.5, 1.0));
     let sink = cuboid([-390.0, -390.0, -190.0], [390.0, 390.0, -1.0]).material(AbsorbingSurface);
     let world = world([halfspace, sink, ball([0.0; 3], 3000.0, lamp())]);
-    for (id, degrees, count) in [("O05", 0.0, 3_000_000), ("O06", 1.5f64.atan().to_degrees(), 1_600_000)] {
+    for (id, degrees, count) in [("O05", 0.0, 2_800_000), ("O06", 1.5f64.atan().to_degrees(), 1_450_000)] {
         assert!((fresnel(degrees, 1.0, 1.5).0 - expected(id)).abs() < 1e-12);
         let [x, y, z] = tilted(degrees);
-        let reading = Probe::new(count).along(&world, times([x, y, -z], -3.0), [x, y, -z]);
+        let reading = Probe::new(count).seed(22).along(&world, times([x, y, -z], -3.0), [x, y, -z]);
         accept(id, expected(id), Demand::Mean, &reading);
     }
 }
@@ -100,7 +101,7 @@ fn o08_o09_transmittance_of_a_slab() {
         let (r, refracted) = fresnel(degrees, 1.0, 1.5);
         let value = pile(&[r, r], &[0.5f64.powf(0.2 / refracted.to_radians().cos())]);
         assert!((value - expected(id)).abs() < 1e-12);
-        accept(id, expected(id), Demand::Mean, &upwards(&world, degrees, 200_000));
+        accept(id, expected(id), Demand::Mean, &upwards(&world, degrees, 80_000));
     }
 }
 
@@ -118,7 +119,7 @@ fn o10_a_matched_absorber_follows_beers_law() {
 fn x01_x02_emission_inside_glass_loses_the_square_of_the_index() {
     let world = world([ball([0.0; 3], 1.0, GlowingGlass::new())]);
     for (id, impact) in [("X01", 0.0), ("X02", 0.6)] {
-        let reading = Probe::new(200_000).along(&world, [impact, 0.0, -5.0], [0.0, 0.0, 1.0]);
+        let reading = Probe::new(80_000).seed(23).along(&world, [impact, 0.0, -5.0], [0.0, 0.0, 1.0]);
         accept(id, expected(id), Demand::Mean, &reading);
     }
 }
@@ -153,7 +154,7 @@ fn ice_in_water_in_glass_multiplies_fresnel_terms() {
     let (ice, water, outer) = (glass(1.31, 1.0).priority(2), glass(1.33, 1.0).priority(1), glass(1.5, 1.0));
     let world = under_a_lamp([layer(0.0, 7.0, outer), layer(1.0, 6.0, water), layer(2.0, 5.0, ice)]);
     let indices = [1.0, 1.5, 1.33, 1.31, 1.33, 1.5, 1.0];
-    let reading = upwards(&world, 0.0, 300_000);
+    let reading = upwards(&world, 0.0, 80_000);
     accept("ice in water in glass", pile_of(&indices, &[1.0; 5]), Demand::Mean, &reading);
 }
 
@@ -170,7 +171,7 @@ fn the_higher_priority_counts_where_glasses_overlap() {
             let transmissions = [0.8f64.powf(middle), 0.5f64.powf(3.0 - middle)];
             let value = pile_of(&[1.0, 1.9, 1.3, 1.0], &transmissions);
             let case = format!("overlap, priorities {first} {second}, flipped {flip}");
-            accept(case, value, Demand::Mean, &upwards(&under_a_lamp(nodes), 0.0, 300_000));
+            accept(case, value, Demand::Mean, &upwards(&under_a_lamp(nodes), 0.0, 80_000));
         }
     }
 }
@@ -190,8 +191,50 @@ fn blocks_with_a_common_face_are_one_block() {
     for from_below in [true, false] {
         let world = two_blocks(0.0, [1.5, 1.5], from_below);
         let case = format!("gap 0, from below {from_below}");
-        accept(case, one, Demand::Mean, &upwards(&world, 0.0, 200_000));
+        accept(case, one, Demand::Mean, &upwards(&world, 0.0, 80_000));
     }
+}
+
+#[test]
+fn blocks_with_a_common_face_are_one_block_at_an_angle() {
+    let (r, refracted) = fresnel(35.0, 1.0, 1.5);
+    let one = pile(&[r, r], &[0.25f64.powf(1.0 / refracted.to_radians().cos())]);
+    for from_below in [true, false] {
+        let reading = upwards(&two_blocks(0.0, [1.5, 1.5], from_below), 35.0, 80_000);
+        accept(format!("gap 0 at 35 degrees, from below {from_below}"), one, Demand::Mean, &reading);
+    }
+}
+
+#[test]
+fn a_common_face_is_one_surface_in_a_turned_frame() {
+    // Rounding places the face of one block a little before or behind that of the other.
+    let value = pile_of(&[1.0, 1.5, 1.9, 1.0], &[0.5, 0.5]);
+    for (turn, from_below) in [(1, true), (1, false), (2, true), (2, false)] {
+        let turn = rotate(17.0 * f64::from(turn), 23.0, 5.0);
+        let mut world = under_a_lamp([]);
+        let group = world.add(Node::group().transform(turn)).unwrap();
+        let blocks = [(0.0, 1.5, 1.0), (0.9, 1.9, 1.0 / 1.3)].map(|(shift, index, size)| {
+            // The same place in two ways: blocks of unlike frames.
+            let frame = translate(0.1 * shift, 0.0, shift / 0.9) * scale(size);
+            let block = cuboid([-4.0, -4.0, 0.0], [4.0, 4.0, 1.0 / size]);
+            block.material(glass(index, 0.5)).transform(frame).parent(group)
+        });
+        let order: Vec<_> = if from_below { blocks.into() } else { blocks.into_iter().rev().collect() };
+        for block in order {
+            world.add(block).unwrap();
+        }
+        let reading = Probe::new(40_000).seed(24).each(&world, |rng| {
+            let from = Point3D::new(rng.range(-1.0, 1.0), rng.range(-1.0, 1.0), -2.0);
+            Ray::new(turn * from, turn * Vector3D::Z)
+        });
+        accept(format!("turned, from below {from_below}"), value, Demand::Mean, &reading);
+    }
+}
+
+/// A uniform scale about the origin.
+fn scale(factor: f64) -> AffineMatrix3D {
+    let [x, y, z] = [Vector3D::X, Vector3D::Y, Vector3D::Z].map(|axis| axis * factor);
+    AffineMatrix3D::from_axes(x, y, z, Point3D::ORIGIN)
 }
 
 #[test]
@@ -201,7 +244,7 @@ fn a_common_face_of_two_glasses_is_one_surface() {
             let world = two_blocks(0.0, indices, from_below);
             let value = pile_of(&[1.0, indices[0], indices[1], 1.0], &[0.5, 0.5]);
             let case = format!("{indices:?} touch, from below {from_below}");
-            accept(case, value, Demand::Mean, &upwards(&world, 0.0, 200_000));
+            accept(case, value, Demand::Mean, &upwards(&world, 0.0, 80_000));
         }
     }
 }
@@ -212,7 +255,7 @@ fn blocks_with_a_gap_are_two_however_small_it_is() {
     assert!((two - 0.213023).abs() < 1e-6);
     for (gap, from_below) in [(1e-12, true), (1e-9, false), (1e-8, true), (0.1, false)] {
         let world = two_blocks(gap, [1.5, 1.5], from_below);
-        accept(format!("gap {gap:e}"), two, Demand::Mean, &upwards(&world, 0.0, 200_000));
+        accept(format!("gap {gap:e}"), two, Demand::Mean, &upwards(&world, 0.0, 80_000));
     }
 }
 
@@ -227,7 +270,7 @@ fn a_flush_inclusion_has_one_surface_on_each_side() {
             format!("flush core, flipped {flip}"),
             value,
             Demand::Mean,
-            &upwards(&under_a_lamp(nodes), 0.0, 200_000),
+            &upwards(&under_a_lamp(nodes), 0.0, 80_000),
         );
     }
 }
@@ -235,12 +278,20 @@ fn a_flush_inclusion_has_one_surface_on_each_side() {
 #[test]
 fn blocks_in_a_furnace_vanish_however_they_touch() {
     let block = |x: f64, index: f64| cuboid([x, -0.5, -0.5], [x + 0.5, 0.5, 0.5]).material(glass(index, 1.0));
-    let world = world([dome(), block(-0.5, 1.5), block(0.0, 1.7), block(0.5, 1.3)]);
-    let reading = Probe::new(50_000).each(&world, |rng| {
-        let target = [rng.range(-0.5, 1.0), rng.range(-0.5, 0.5), rng.range(-0.5, 0.5)];
-        let origin = [-3.0, rng.range(-2.0, 2.0), 2.0];
-        let origin = raysect::math::Point3D::from(origin);
-        raysect::core::Ray::new(origin, origin.vector_to(target.into()))
-    });
-    accept("three blocks in a furnace", 1.0, Demand::Exact, &reading);
+    for turns in 0..3 {
+        for mirrored in [false, true] {
+            let mut blocks = vec![block(-0.5, 1.5), block(0.0, 1.7), block(0.5, 1.3)];
+            blocks.rotate_left(turns);
+            if mirrored {
+                blocks.reverse();
+            }
+            let world = world([dome()].into_iter().chain(blocks));
+            let reading = Probe::new(10_000).each(&world, |rng| {
+                let target = [rng.range(-0.5, 1.0), rng.range(-0.5, 0.5), rng.range(-0.5, 0.5)];
+                let origin = Point3D::new(-3.0, rng.range(-2.0, 2.0), 2.0);
+                Ray::new(origin, origin.vector_to(target.into()))
+            });
+            accept("three blocks in a furnace", 1.0, Demand::Exact, &reading);
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! Materials that a user might write, for what the library has no ready one.
 
 use raysect::optical::{
-    Bsdf, Coefficients, Context, Dielectric, Facts, Lambert, Material, Medium, MediumPoint, Path, Refraction,
+    Coefficients, Context, Dielectric, Facts, Lambert, Material, Medium, MediumPoint, Path, Refraction,
     Scatter, SurfaceHit,
 };
 
@@ -92,14 +92,5 @@ pub(crate) struct Screen(pub(crate) f64);
 impl Material for Screen {
     fn surface(&self, _: &SurfaceHit, path: &mut Path<'_>) -> Scatter {
         if path.rng().probability(self.0) { Scatter::PassThrough } else { Scatter::Absorbed }
-    }
-}
-
-/// A Lambert surface whose [`Bsdf`] is somebody else's.
-pub(crate) struct Rough<B>(pub(crate) B);
-
-impl<B: Bsdf + Send + Sync + 'static> Material for Rough<B> {
-    fn surface(&self, hit: &SurfaceHit, path: &mut Path<'_>) -> Scatter {
-        path.scatter(&self.0, hit)
     }
 }

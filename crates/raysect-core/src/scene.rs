@@ -174,6 +174,20 @@ impl Leaving {
         }
     }
 
+    /// Notes that the ray has gone through another surface at the same place, too.
+    pub fn passed(&mut self, instance: u32) {
+        if instance != self.instance && (self.clustered as usize) < CLUSTER {
+            let towards = self.towards.to_array().map(|x| x as f32);
+            self.cluster[self.clustered as usize] = (instance, towards);
+            self.clustered += 1;
+        }
+    }
+
+    /// Within this distance along the ray, crossings count as being at the same place.
+    pub fn zone(&self) -> f64 {
+        self.zone
+    }
+
     /// Number of the instance that is being left.
     pub fn instance(&self) -> u32 {
         self.instance

@@ -67,12 +67,11 @@ impl<'a, S: Sensor> Session<'a, S> {
             observer.seed_value()
         );
         for pipeline in &mut list {
-            if pipeline.needs_etendue() {
-                if let Some(pixel) = (0..shape.pixels()).find(|&p| sensor.etendue(p).is_none()) {
+            if pipeline.needs_etendue()
+                && let Some(pixel) = (0..shape.pixels()).find(|&p| sensor.etendue(p).is_none()) {
                     let pipeline = pipeline.frame().name().to_owned();
                     return Err(ObserverError::NoEtendue { pipeline, sensor: sensor.kind(), pixel });
                 }
-            }
             let channels = pipeline.channels(&slicing);
             pipeline.frame_mut().prepare(shape, channels, &fingerprint)?;
         }

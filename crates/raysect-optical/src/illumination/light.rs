@@ -15,6 +15,15 @@ pub struct Light {
     volume_scale: f64,
 }
 
+/// Where light is looked for: a point, and the instance on whose surface it lies.
+#[derive(Debug, Clone, Copy)]
+pub struct Vertex {
+    /// The point [m].
+    pub point: Point3D,
+    /// The instance; none for a point in space.
+    pub instance: Option<u32>,
+}
+
 /// A direction drawn towards a light.
 #[derive(Debug, Clone, Copy)]
 pub struct LightSample {
@@ -46,7 +55,12 @@ impl Light {
 
     /// How much of the light sampling at a point goes to this light: its importance times the square of the angle
     /// under which it appears. A light that encloses the point is left to the directions of the surface.
-    fn weight(&self, scene: &Scene, from: Point3D) -> f64 {
+    fn weight(&self, scene: &Scene, at: &Vertex) -> f64 {
+        // From a point on a convex light itself there is nothing of it to be seen outside, and all around inside.
+        if at.instance == Some(self.instance) && scene.is_convex(self.instance) {
+            return 0.0;
+        }
+        let from = at.point;
         let distance = from.vector_to(self.sphere.centre).length_squared();
         let radius = self.sphere.radius * self.sphere.radius;
         if distance > radius {
@@ -116,23 +130,23 @@ impl Light {
 }
 
 /// Draws a light and a direction towards it; none if no light can be sampled from there.
-pub(crate) fn sample_lights(scene: &Scene, from: Point3D, rng: &mut Rng) -> Option<LightSample> {
+pub(crate) fn sample_lights(scene: &Scene, at: &Vertex, rng: &mut Rng) -> Option<LightSample> {
     let lights = &scene.compiled.lights;
     if let [light] = &lights[..] {
-        if light.weight(scene, from) == 0.0 {
+        if light.weight(scene, at) == 0.0 {
             return None;
         }
-        let (direction, density, surface) = light.sample(scene, from, rng)?;
+        let (direction, density, surface) = light.sample(scene, at.point, rng)?;
         return Some(LightSample { light: 0, direction, density, surface });
     }
-    let total: f64 = lights.iter().map(|l| l.weight(scene, from)).sum();
+    let total: f64 = lights.iter().map(|l| l.weight(scene, at)).sum();
     if total.is_nan() || total <= 0.0 {
         return None;
     }
     let mut chosen = None;
     let mut rest = rng.uniform() * total;
     for (index, light) in lights.iter().enumerate() {
-        let weight = light.weight(scene, from);
+        let weight = light.weight(scene, at);
         if weight > 0.0 {
             chosen = Some((index, weight));
             rest -= weight;
@@ -142,7 +156,7 @@ pub(crate) fn sample_lights(scene: &Scene, from: Point3D, rng: &mut Rng) -> Opti
         }
     }
     let (index, weight) = chosen?;
-    let (direction, density, surface) = lights[index].sample(scene, from, rng)?;
+    let (direction, density, surface) = lights[index].sample(scene, at.point, rng)?;
     Some(LightSample { light: index as u32, direction, density: density * weight / total, surface })
 }
 
@@ -150,15 +164,15 @@ pub(crate) fn sample_lights(scene: &Scene, from: Point3D, rng: &mut Rng) -> Opti
 pub(crate) fn light_density(
     scene: &Scene,
     light: u32,
-    from: Point3D,
+    at: &Vertex,
     direction: Vector3D,
     surface: &SurfacePoint,
 ) -> f64 {
     let lights = &scene.compiled.lights;
-    let weight = lights[light as usize].weight(scene, from);
+    let weight = lights[light as usize].weight(scene, at);
     if weight == 0.0 {
         return 0.0;
     }
-    let total: f64 = lights.iter().map(|l| l.weight(scene, from)).sum();
-    weight / total * lights[light as usize].density(scene, from, direction, surface)
+    let total: f64 = lights.iter().map(|l| l.weight(scene, at)).sum();
+    weight / total * lights[light as usize].density(scene, at.point, direction, surface)
 }

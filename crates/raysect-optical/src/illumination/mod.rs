@@ -5,7 +5,7 @@ mod targets;
 
 use raysect_core::{Instance, SurfaceSampling};
 
-pub use light::{Light, LightSample};
+pub use light::{Light, LightSample, Vertex};
 pub(crate) use light::{light_density, sample_lights};
 pub use targets::Targets;
 
@@ -39,6 +39,8 @@ pub struct Illumination {
     pub any_transparent: bool,
     /// True if something fills a volume.
     pub any_medium: bool,
+    /// How many volumes refract.
+    pub refracting: usize,
     /// True if something refracts by wavelength.
     pub any_dispersion: bool,
     /// What each instance calls its material.
@@ -75,6 +77,7 @@ impl Illumination {
         Self {
             any_transparent: facts.iter().any(|f| f.transparent),
             any_medium: facts.iter().any(|f| f.has_medium),
+            refracting: instances.iter().filter(|i| refracts(i)).count(),
             any_dispersion: known.iter().any(|f| f.disperses),
             names: known.into_iter().map(|f| f.name).collect(),
             facts,
@@ -83,4 +86,8 @@ impl Illumination {
             all_targets: Targets::new(all_targets),
         }
     }
+}
+
+fn refracts(instance: &Instance<Optics>) -> bool {
+    instance.attached.material().medium().is_some_and(|m| m.refraction().is_some())
 }

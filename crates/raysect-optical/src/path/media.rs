@@ -1,6 +1,6 @@
 //! The media that a path is in, and what they do to it.
 
-use raysect_core::{Ray, SurfacePoint};
+use raysect_core::{Leaving, Ray, SurfacePoint};
 use raysect_math::Point3D;
 
 use super::Path;
@@ -47,6 +47,27 @@ impl MediaList {
         self.count -= 1;
         true
     }
+
+    /// Into or out of an instance; `false` if that does not agree with the list.
+    fn cross(&mut self, instance: u32, exiting: bool) -> bool {
+        if exiting { self.remove(instance) } else { self.insert(instance) }
+    }
+}
+
+/// Surfaces that may coincide with the one that a path is at.
+const COINCIDENT: usize = 4;
+
+/// Other refracting surfaces at the place of a path, and whether it leaves their solids there.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Coincident {
+    instances: [(u32, bool); COINCIDENT],
+    count: usize,
+}
+
+impl Coincident {
+    fn as_slice(&self) -> &[(u32, bool)] {
+        &self.instances[..self.count]
+    }
 }
 
 impl<'a> Path<'a> {
@@ -72,24 +93,57 @@ impl<'a> Path<'a> {
         scene.instances[instance as usize].attached.material().medium()
     }
 
-    /// The refracting medium that counts among those of a list, without one of them.
-    fn refracting(&self, media: &MediaList, without: Option<u32>) -> Option<(u32, &'a Refraction)> {
-        let others = media.as_slice().iter().filter(|i| Some(**i) != without);
-        let all = others.filter_map(|&i| self.medium(i).and_then(|m| m.refraction()).map(|r| (i, r)));
+    /// The refracting medium that counts among those of a list.
+    fn refracting(&self, media: &MediaList) -> Option<(u32, &'a Refraction)> {
+        let all = media.as_slice().iter().filter_map(|&i| self.medium(i).and_then(|m| m.refraction()).map(|r| (i, r)));
         all.max_by_key(|(i, r)| (r.priority, *i))
     }
 
-    /// The indices before and behind a surface of a refracting solid; none if another medium hides the surface.
-    fn interface(&self, media: &MediaList, surface: &SurfacePoint) -> Option<(f64, f64)> {
+    /// The indices before and behind a surface of a refracting solid; none if the same medium counts on both sides.
+    fn interface(&self, media: &MediaList, surface: &SurfacePoint, others: &Coincident) -> Option<(f64, f64)> {
         let own = self.medium(surface.instance).and_then(|m| m.refraction())?;
-        let other = self.refracting(media, Some(surface.instance));
-        let hidden = other.is_some_and(|(i, r)| (r.priority, i) > (own.priority, surface.instance));
-        if hidden {
+        // What a surface says of itself is believed, whatever the list holds.
+        let (mut before, mut behind) = (*media, *media);
+        if surface.exiting {
+            before.insert(surface.instance);
+            behind.remove(surface.instance);
+        } else {
+            before.remove(surface.instance);
+            behind.insert(surface.instance);
+        }
+        for &(instance, exiting) in others.as_slice() {
+            behind.cross(instance, exiting);
+        }
+        let (near, far) = (self.refracting(&before), self.refracting(&behind));
+        if near.map(|n| n.0) == far.map(|f| f.0) {
             return None;
         }
-        let inside = self.slice.mean(&own.index);
-        let outside = self.slice.mean(other.map_or(&own.external_index, |(_, r)| &r.index));
-        Some(if surface.exiting { (inside, outside) } else { (outside, inside) })
+        let index = |medium: Option<(u32, &Refraction)>| {
+            self.slice.mean(medium.map_or(&own.external_index, |(_, r)| &r.index))
+        };
+        Some((index(near), index(far)))
+    }
+
+    /// The refracting surfaces of other solids that coincide with a surface, in the way of a path that goes straight
+    /// through it: touching solids meet in one interface, not in two with nothing in between.
+    fn coincident(&mut self, at: &SurfaceHit) -> Coincident {
+        let (scene, direction) = (self.scene, at.direction);
+        let mut found = Coincident::default();
+        let mut leaving = Leaving::new(&at.surface, direction, direction, self.leaving.as_ref());
+        let mut point = at.surface.point;
+        while found.count < COINCIDENT {
+            let ray = Ray::new(point, direction).with_max_distance(leaving.zone());
+            let Some(next) = scene.hit(&ray, Some(&leaving), &mut self.scratch) else { break };
+            if !self.refracts(next.instance) {
+                break;
+            }
+            let surface = scene.finish(&ray, &next);
+            found.instances[found.count] = (surface.instance, surface.exiting);
+            found.count += 1;
+            leaving = Leaving::new(&surface, direction, direction, Some(&leaving));
+            point = surface.point;
+        }
+        found
     }
 
     fn refracts(&self, instance: u32) -> bool {
@@ -98,7 +152,7 @@ impl<'a> Path<'a> {
 
     /// True unless the surface belongs to a refracting solid and is hidden by a medium of higher priority.
     pub(super) fn is_interface(&self, media: &MediaList, surface: &SurfacePoint) -> bool {
-        !self.refracts(surface.instance) || self.interface(media, surface).is_some()
+        !self.refracts(surface.instance) || self.interface(media, surface, &Coincident::default()).is_some()
     }
 
     /// Notes the indices at a surface; `false` if there is nothing to be met, since another medium hides it.
@@ -107,24 +161,32 @@ impl<'a> Path<'a> {
         if !compiled.any_medium {
             return true;
         }
+        self.coincident = Coincident::default();
         if !compiled.facts[at.surface.instance as usize].has_medium || !self.refracts(at.surface.instance) {
-            let here = self.refracting(&self.media, None).map_or(1.0, |(_, r)| self.slice.mean(&r.index));
+            let here = self.refracting(&self.media).map_or(1.0, |(_, r)| self.slice.mean(&r.index));
             self.indices = (here, here);
             return true;
         }
-        match self.interface(&self.media, &at.surface) {
+        let others = if compiled.refracting > 1 { self.coincident(at) } else { Coincident::default() };
+        match self.interface(&self.media, &at.surface, &others) {
             Some(indices) => {
                 self.indices = indices;
+                self.coincident = others;
                 true
             }
+            // The others are met one by one, as if this surface were not there.
             None => false,
         }
     }
 
-    /// Follows the path through a surface, into or out of what lies behind it.
-    pub(super) fn change_medium(&mut self, surface: &SurfacePoint) {
+    /// Follows the path through a surface and those that coincide with it, into or out of what lies behind.
+    pub(super) fn change_medium(&mut self, surface: &SurfacePoint, leaving: &mut Leaving) {
         let mut media = self.media;
-        let consistent = self.change_list(&mut media, surface);
+        let mut consistent = self.change_list(&mut media, surface);
+        for &(instance, exiting) in self.coincident.as_slice() {
+            consistent &= media.cross(instance, exiting);
+            leaving.passed(instance);
+        }
         self.ledger.inconsistencies += u64::from(!consistent);
         self.media = media;
     }
@@ -133,13 +195,13 @@ impl<'a> Path<'a> {
         if !self.scene.compiled.facts[surface.instance as usize].has_medium {
             return true;
         }
-        if surface.exiting { media.remove(surface.instance) } else { media.insert(surface.instance) }
+        media.cross(surface.instance, surface.exiting)
     }
 
     /// Adds up the coefficients of the media of a list, with emission in `emitted`; of the refracting ones only that
     /// which counts.
     fn add_up(&mut self, media: &MediaList, ray: &Ray, distance: f64) {
-        let counts = self.refracting(media, None).map(|(i, _)| i);
+        let counts = self.refracting(media).map(|(i, _)| i);
         let at = MediumPoint {
             point: ray.point_at(0.5 * distance),
             direction: -ray.direction,
@@ -150,12 +212,11 @@ impl<'a> Path<'a> {
         emission.fill(0.0);
         attenuation.fill(0.0);
         for &instance in media.as_slice() {
-            if let Some(medium) = self.medium(instance) {
-                if medium.refraction().is_none() || counts == Some(instance) {
+            if let Some(medium) = self.medium(instance)
+                && (medium.refraction().is_none() || counts == Some(instance)) {
                     let mut out = Coefficients { emission: &mut emission, attenuation: &mut attenuation };
                     medium.coefficients(&at, &mut out);
                 }
-            }
         }
         (self.emitted, self.attenuation) = (emission, attenuation);
     }

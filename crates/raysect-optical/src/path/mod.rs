@@ -9,10 +9,10 @@ use raysect_core::{Leaving, Ray, Scratch};
 use raysect_math::{Point3D, Rng, Vector3D};
 
 pub use ledger::{LEDGER_NUMBERS, Ledger};
-use media::MediaList;
+use media::{Coincident, MediaList};
 pub use settings::{LightSampling, PathSettings};
 
-use crate::illumination::light_density;
+use crate::illumination::{Vertex, light_density};
 use crate::{Context, Scatter, Scene, Slice, SurfaceHit};
 
 /// A surface may be passed straight through this often in a row before a path is given up as caught between
@@ -44,10 +44,12 @@ pub struct Path<'a> {
     start: Option<(Point3D, MediaList)>,
     /// Refractive indices before and behind the surface of the moment.
     indices: (f64, f64),
+    /// Other refracting surfaces at the place of the moment.
+    coincident: Coincident,
     depth: u32,
     leaving: Option<Leaving>,
     /// The last place of scattering, and the density of the direction chosen there; none for a delta.
-    vertex: Point3D,
+    vertex: Vertex,
     density: Option<f64>,
 }
 
@@ -72,7 +74,8 @@ impl<'a> Path<'a> {
             indices: (1.0, 1.0),
             depth: 0,
             leaving: None,
-            vertex: Point3D::ORIGIN,
+            vertex: Vertex { point: Point3D::ORIGIN, instance: None },
+            coincident: Coincident::default(),
             density: None,
         }
     }
@@ -154,7 +157,7 @@ impl<'a> Path<'a> {
         self.ledger.paths += 1;
         self.leaving = None;
         self.density = None;
-        self.vertex = ray.origin;
+        self.vertex = Vertex { point: ray.origin, instance: None };
         self.indices = (1.0, 1.0);
         let length = ray.direction.length();
         let end = ray.max_distance * length;
@@ -186,7 +189,7 @@ impl<'a> Path<'a> {
                 }
                 Scatter::Continue { direction } => {
                     passes = 0;
-                    self.vertex = surface.point;
+                    self.vertex = Vertex { point: surface.point, instance: Some(surface.instance) };
                     self.depth += 1;
                     if !self.survives() {
                         return;
@@ -198,10 +201,11 @@ impl<'a> Path<'a> {
                 self.ledger.lost += 1;
                 return;
             }
+            let mut leaving = Leaving::new(&surface, ray.direction, direction, self.leaving.as_ref());
             if self.scene.compiled.any_medium && at.leads_through(direction) {
-                self.change_medium(&surface);
+                self.change_medium(&surface, &mut leaving);
             }
-            self.leaving = Some(Leaving::new(&surface, ray.direction, direction, self.leaving.as_ref()));
+            self.leaving = Some(leaving);
             // A ray that ends somewhere ends there also behind a transparent surface, but not round a corner.
             pieces &= matches!(scatter, Scatter::PassThrough);
             let rest = if pieces { ray.max_distance - surface.distance } else { f64::INFINITY };
@@ -217,7 +221,7 @@ impl<'a> Path<'a> {
         if facts.emits && material.emit(at, self.context(), &mut self.emitted) {
             let weight = match (facts.light, self.density) {
                 (Some(light), Some(density)) if self.settings.light_sampling == LightSampling::Lights => {
-                    let other = light_density(scene, light, self.vertex, at.direction, &at.surface);
+                    let other = light_density(scene, light, &self.vertex, at.direction, &at.surface);
                     heuristic(density, other)
                 }
                 _ => 1.0,

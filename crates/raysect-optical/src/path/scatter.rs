@@ -4,7 +4,7 @@ use raysect_core::{Candidate, Leaving, Ray, SurfacePoint};
 use raysect_math::{Frame, Vector3D};
 
 use super::{LightSampling, Path, heuristic, unit};
-use crate::illumination::{LightSample, Targets, sample_lights};
+use crate::illumination::{LightSample, Targets, Vertex, sample_lights};
 use crate::{Bsdf, Scatter, SurfaceHit};
 
 impl Path<'_> {
@@ -16,8 +16,9 @@ impl Path<'_> {
         let frame = hit.frame();
         let incoming = frame.to_local(-hit.direction);
         let at = self.context();
-        if self.settings.light_sampling == LightSampling::Lights && !self.scene.compiled.lights.is_empty() {
-            if let Some(light) = sample_lights(self.scene, hit.surface.point, &mut self.rng) {
+        if self.looks_for_lights() {
+            let vertex = Vertex { point: hit.surface.point, instance: Some(hit.surface.instance) };
+            if let Some(light) = sample_lights(self.scene, &vertex, &mut self.rng) {
                 let outgoing = frame.to_local(light.direction);
                 bsdf.evaluate(incoming, outgoing, at, &mut self.reflected);
                 if self.reflected.iter().any(|f| *f > 0.0) {
@@ -36,6 +37,15 @@ impl Path<'_> {
         self.throughput.iter_mut().zip(&self.reflected).for_each(|(t, f)| *t *= f * inverse);
         self.density = Some(density);
         Scatter::Continue { direction }
+    }
+
+    /// True if lights are to be sampled. At the last scattering of a path that is cut off they are not: what it would
+    /// have found by going on is missing then, and half an answer would only blur what the report says is missing.
+    #[inline]
+    fn looks_for_lights(&self) -> bool {
+        self.settings.light_sampling == LightSampling::Lights
+            && !self.scene.compiled.lights.is_empty()
+            && self.depth + 1 < self.settings.max_depth
     }
 
     /// What scattered paths are aimed at besides sampled lights, if anything.

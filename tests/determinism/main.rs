@@ -1,0 +1,14 @@
+//! The same seed gives the same bits: on any engine, in any number of passes, whatever happened in between.
+
+#[path = "../../examples/common/cornell.rs"]
+mod cornell;
+
+mod bits;
+mod cancelling;
+mod engines;
+mod memory;
+mod panics;
+mod parallel;
+mod passes;
+mod refusals;
+mod world;

@@ -1,0 +1,12 @@
+//! Are the error bars right, and are the averages that a stop rule ends unbiased?
+
+#[path = "../../examples/common/cornell.rs"]
+mod cornell;
+
+mod coverage;
+mod dark;
+mod score;
+mod seeds;
+mod sensors;
+mod truth;
+mod until;

@@ -1,0 +1,112 @@
+//! The judges: of error bars, and of averages.
+
+use std::fmt;
+
+use raysect::math::Statistics;
+use raysect::prelude::*;
+
+/// Differences from the truth in units of the error bars.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Scores(pub(crate) Vec<f64>);
+
+/// How many of the intervals cover the truth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Coverage {
+    /// Share of the intervals of one error to each side.
+    pub(crate) one: f64,
+    /// Share of the intervals of 1.96 errors to each side.
+    pub(crate) two: f64,
+    /// Number of intervals.
+    pub(crate) count: usize,
+}
+
+impl Scores {
+    /// Adds an estimate of a known value.
+    pub(crate) fn add(&mut self, estimate: Estimate, truth: f64) {
+        assert!(estimate.error > 0.0 && estimate.error.is_finite(), "{estimate:?} of {truth}");
+        self.0.push((estimate.value - truth) / estimate.error);
+    }
+
+    /// Adds others.
+    pub(crate) fn extend(&mut self, others: Self) {
+        self.0.extend(others.0);
+    }
+
+    /// What the intervals cover if all error bars are multiplied by a factor.
+    pub(crate) fn coverage(&self, factor: f64) -> Coverage {
+        let share = |width: f64| {
+            let inside = self.0.iter().filter(|z| z.abs() <= width * factor).count();
+            inside as f64 / self.0.len() as f64
+        };
+        Coverage { one: share(1.0), two: share(1.96), count: self.0.len() }
+    }
+
+    /// The same, of values that are off by a share of their error bars.
+    pub(crate) fn shifted(&self, share: f64) -> Self {
+        Self(self.0.iter().map(|z| z + share).collect())
+    }
+}
+
+impl Coverage {
+    /// Errors are right if 68 ± 3 % and 95 ± 1.5 % of the intervals cover the truth.
+    pub(crate) fn holds(&self) -> bool {
+        (self.one - 0.68).abs() <= 0.03 && (self.two - 0.95).abs() <= 0.015
+    }
+}
+
+impl fmt::Display for Coverage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.2} % and {:.2} % of {}", 100.0 * self.one, 100.0 * self.two, self.count)
+    }
+}
+
+/// Many averages of the same quantity, each from a seed of its own.
+#[derive(Debug, Clone)]
+pub(crate) struct Averages {
+    /// Of the averages.
+    pub(crate) mean: Statistics,
+    /// Of the numbers of samples behind them.
+    pub(crate) samples: Statistics,
+    /// In units of their own errors.
+    pub(crate) scores: Scores,
+    truth: f64,
+}
+
+impl Averages {
+    /// Of estimates with their numbers of samples.
+    pub(crate) fn of(all: &[(Estimate, u64)], truth: f64) -> Self {
+        let mut averages = Self {
+            mean: Statistics::new(),
+            samples: Statistics::new(),
+            scores: Scores::default(),
+            truth,
+        };
+        for (estimate, samples) in all {
+            averages.mean.add(estimate.value);
+            averages.samples.add(*samples as f64);
+            averages.scores.add(*estimate, truth);
+        }
+        averages
+    }
+
+    /// How far the mean of the averages lies from the truth, in its standard errors.
+    pub(crate) fn z(&self) -> f64 {
+        (self.mean.mean() - self.truth) / self.mean.error()
+    }
+
+    /// Averages are right if they have no bias of 4 standard errors, and 93 … 97 % of their 95 % intervals cover the
+    /// truth.
+    pub(crate) fn holds(&self) -> bool {
+        self.z().abs() < 4.0 && (0.93..=0.97).contains(&self.scores.coverage(1.0).two)
+    }
+}
+
+impl fmt::Display for Averages {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let bias = 100.0 * (self.mean.mean() / self.truth - 1.0);
+        let error = 100.0 * self.mean.error() / self.truth;
+        let (z, samples) = (self.z(), self.samples.mean());
+        write!(f, "bias {bias:+.3} ± {error:.3} %, z {z:+.2}, {}, ", self.scores.coverage(1.0))?;
+        write!(f, "{samples:.0} samples")
+    }
+}

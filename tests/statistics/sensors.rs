@@ -1,0 +1,88 @@
+//! Pipelines and sensors of a user.
+
+use raysect::core::Ray;
+use raysect::math::Rng;
+use raysect::observer::{FrameShape, Measurement};
+use raysect::optical::Slicing;
+use raysect::prelude::*;
+
+/// The radiance of some bins of the spectrum, a channel each.
+#[derive(Debug)]
+pub(crate) struct Bins {
+    range: std::ops::Range<usize>,
+    frame: Frame,
+}
+
+impl Bins {
+    /// Of these bins.
+    pub(crate) fn new(range: std::ops::Range<usize>) -> Self {
+        Self { range, frame: Frame::new("bins", "W/m²/sr/nm") }
+    }
+}
+
+impl Pipeline for Bins {
+    fn channels(&self, _: &Slicing) -> Vec<String> {
+        self.range.clone().map(|bin| format!("bin {bin}")).collect()
+    }
+
+    fn measure(&self, sample: &Measurement<'_>, out: &mut [f64]) {
+        for (bin, radiance) in (sample.slice.offset..).zip(sample.radiance) {
+            if self.range.contains(&bin) {
+                out[bin - self.range.start] += radiance;
+            }
+        }
+    }
+
+    fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    fn frame_mut(&mut self) -> &mut Frame {
+        &mut self.frame
+    }
+}
+
+/// Looks ahead with a small probability, and back otherwise.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Glimpse {
+    pub(crate) probability: f64,
+    pub(crate) shape: FrameShape,
+}
+
+impl Sensor for Glimpse {
+    fn shape(&self) -> FrameShape {
+        self.shape
+    }
+
+    fn sample_ray(&self, _: usize, rng: &mut Rng) -> Ray {
+        let ahead = rng.uniform() < self.probability;
+        Ray::new(Point3D::ORIGIN, if ahead { Vector3D::Z } else { -Vector3D::Z })
+    }
+
+    fn pdf(&self, _: usize, _: Point3D, _: Vector3D) -> Option<f64> {
+        None
+    }
+
+    fn etendue(&self, _: usize) -> Option<f64> {
+        None
+    }
+}
+
+/// An observer of one pixel, one bin of 1 nm, on the calling thread, whose samples look ahead with a probability.
+pub(crate) fn glimpse(probability: f64) -> Observer<Glimpse> {
+    glimpses(probability, FrameShape::Single)
+}
+
+/// The same of several pixels.
+pub(crate) fn glimpses(probability: f64, shape: FrameShape) -> Observer<Glimpse> {
+    let observer = Observer::with_sensor(Glimpse { probability, shape });
+    observer.wavelengths(500.0, 501.0).spectral_bins(1).engine(Serial).quiet(true)
+}
+
+/// A world with one small lamp of a radiance, ahead of the origin or behind it.
+pub(crate) fn lamp_at(z: f64, radiance: f64) -> World {
+    let mut world = World::new();
+    let lamp = Sphere::new(0.1).unwrap().material(UniformSurfaceEmitter::new(1.0, radiance));
+    world.add(lamp.transform(translate(0.0, 0.0, z))).unwrap();
+    world
+}
