@@ -26,7 +26,8 @@ struct Rendering {
 }
 
 fn ours(world: &World, samples: u64, threads: usize, seed: u64) -> raysect::Result<Rendering> {
-    let camera = cornell::camera((PIXELS, PIXELS))?.pixel_samples(samples).seed(seed).quiet(true).threads(threads)?;
+    let camera =
+        cornell::camera((PIXELS, PIXELS))?.pixel_samples(samples).seed(seed).quiet(true).threads(threads)?;
     let mut rgb = RgbPipeline2D::new().observer(CieObserver::FiveNanometres);
     let start = Instant::now();
     let report = camera.observe(world, &mut rgb)?;
@@ -91,7 +92,10 @@ fn compare(variant: Variant, rounds: u64) -> raysect::Result<()> {
         let a = ours(&world, our_samples, THREADS, round + 1)?;
         let squared = error_squared(&a, &reference, noise);
         let (rate, efficiency) = (a.paths / a.seconds, 1.0 / (squared * a.seconds));
-        println!("{name} raysect-rs    {rate:.3e} paths/s, rmse {:.4}, 1/(rmse² s) {efficiency:.1}", squared.sqrt());
+        println!(
+            "{name} raysect-rs    {rate:.3e} paths/s, rmse {:.4}, 1/(rmse² s) {efficiency:.1}",
+            squared.sqrt()
+        );
         let Some(python) = &python else { continue };
         match theirs(python, variant, their_samples, round + 1) {
             Ok(b) => {
@@ -112,7 +116,9 @@ fn compare(variant: Variant, rounds: u64) -> raysect::Result<()> {
         v.get(v.len() / 2).copied()
     };
     if let (Some(rate), Some(efficiency)) = (median(&mut rates), median(&mut efficiencies)) {
-        println!("{name}: {rate:.2} times the paths per second, {efficiency:.1} times the efficiency (medians)\n");
+        println!(
+            "{name}: {rate:.2} times the paths per second, {efficiency:.1} times the efficiency (medians)\n"
+        );
     } else {
         println!("{name}: set RAYSECT_PYTHON to measure Raysect 0.9.1 in the same run\n");
     }

@@ -26,7 +26,8 @@ impl Material for Fragile {
 /// the lower one by.
 fn world(broken: &Arc<AtomicBool>) -> World {
     let mut world = World::new();
-    let half = |bottom, top| Cuboid::new(Point3D::new(-3.0, bottom, 2.0), Point3D::new(3.0, top, 2.1)).unwrap();
+    let half =
+        |bottom, top| Cuboid::new(Point3D::new(-3.0, bottom, 2.0), Point3D::new(3.0, top, 2.1)).unwrap();
     let lambert = Lambert::new(0.7);
     let fragile = Fragile { lambert: lambert.clone(), broken: broken.clone() };
     world.add(half(0.0, 3.0).material(lambert)).unwrap();
@@ -38,7 +39,12 @@ fn world(broken: &Arc<AtomicBool>) -> World {
 
 /// Eight rows, of which the upper four see the sound half of the wall.
 fn camera(samples: u64) -> PinholeCamera {
-    PinholeCamera::new((6, 8), 60.0).unwrap().spectral_bins(2).pixel_samples(samples).engine(Serial).quiet(true)
+    PinholeCamera::new((6, 8), 60.0)
+        .unwrap()
+        .spectral_bins(2)
+        .pixel_samples(samples)
+        .engine(Serial)
+        .quiet(true)
 }
 
 /// The undivided observation of a number of samples.

@@ -46,7 +46,12 @@ fn a_refused_pipeline_is_still_new() {
     let (world, mut rgb) = begun();
     let mut late = RadiancePipeline2D::new();
     camera(10).observe(&world, &mut (&mut late, &mut rgb)).unwrap_err();
-    assert!(late.frame().is_empty(), "{:?} with {} samples", late.frame().shape(), late.frame().total_samples());
+    assert!(
+        late.frame().is_empty(),
+        "{:?} with {} samples",
+        late.frame().shape(),
+        late.frame().total_samples()
+    );
     camera(10).seed(2).observe(&world, &mut late).unwrap();
 }
 

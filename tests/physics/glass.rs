@@ -2,7 +2,7 @@
 
 use raysect::core::{Node, Ray};
 use raysect::math::{AffineMatrix3D, Point3D, Vector3D, rotate, translate};
-use raysect::optical::{AbsorbingSurface, Dielectric, Optics, WithMaterial, World};
+use raysect::optical::{AbsorbingSurface, Dielectric, NullMaterial, Optics, WithMaterial, World};
 
 use crate::check::{Demand, Probe, Reading, accept, expected};
 use crate::materials::{Fog, GlowingGlass};
@@ -235,6 +235,26 @@ fn a_common_face_is_one_surface_in_a_turned_frame() {
 fn scale(factor: f64) -> AffineMatrix3D {
     let [x, y, z] = [Vector3D::X, Vector3D::Y, Vector3D::Z].map(|axis| axis * factor);
     AffineMatrix3D::from_axes(x, y, z, Point3D::ORIGIN)
+}
+
+#[test]
+fn a_box_of_nothing_in_a_common_face_changes_nothing() {
+    let one = pile_of(&[1.0, 1.5, 1.0], &[0.25]);
+    for turns in 0..3 {
+        for reversed in [false, true] {
+            let mut nodes = vec![
+                layer(0.0, 1.0, glass(1.5, 0.5)),
+                layer(1.0, 3.0, NullMaterial),
+                layer(1.0, 2.0, glass(1.5, 0.5)),
+            ];
+            nodes.rotate_left(turns);
+            if reversed {
+                nodes.reverse();
+            }
+            let reading = upwards(&under_a_lamp(nodes), 0.0, 60_000);
+            accept(format!("nothing between, {turns} {reversed}"), one, Demand::Mean, &reading);
+        }
+    }
 }
 
 #[test]

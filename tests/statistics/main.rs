@@ -5,6 +5,7 @@ mod cornell;
 
 mod coverage;
 mod dark;
+mod pictures;
 mod score;
 mod seeds;
 mod sensors;

@@ -7,7 +7,7 @@ use raysect::prelude::*;
 
 /// Differences from the truth in units of the error bars.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Scores(pub(crate) Vec<f64>);
+pub(crate) struct Scores(Vec<f64>);
 
 /// How many of the intervals cover the truth.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,6 +60,53 @@ impl fmt::Display for Coverage {
     }
 }
 
+/// Squares of differences from the truth and of error bars, in units of what they should be in the mean.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Scatter {
+    differences: f64,
+    errors: f64,
+    count: f64,
+}
+
+impl Scatter {
+    /// Adds an estimate of a known value and variance.
+    pub(crate) fn add(&mut self, estimate: Estimate, truth: f64, variance: f64) {
+        self.differences += (estimate.value - truth).powi(2) / variance;
+        self.errors += estimate.error * estimate.error / variance;
+        self.count += 1.0;
+    }
+
+    /// Adds others.
+    pub(crate) fn extend(&mut self, others: Self) {
+        self.differences += others.differences;
+        self.errors += others.errors;
+        self.count += others.count;
+    }
+
+    /// As if all error bars had been multiplied by a factor.
+    pub(crate) fn with_errors_times(self, factor: f64) -> Self {
+        Self { errors: self.errors * factor * factor, ..self }
+    }
+
+    /// Both mean squares, which should be 1.
+    fn means(&self) -> (f64, f64) {
+        (self.differences / self.count, self.errors / self.count)
+    }
+
+    /// Errors are right in the mean square if both are 1 within 5 %.
+    pub(crate) fn holds(&self) -> bool {
+        let (differences, errors) = self.means();
+        (differences - 1.0).abs() < 0.05 && (errors - 1.0).abs() < 0.05
+    }
+}
+
+impl fmt::Display for Scatter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (differences, errors) = self.means();
+        write!(f, "mean squares: of differences {differences:.3}, of errors {errors:.3}")
+    }
+}
+
 /// Many averages of the same quantity, each from a seed of its own.
 #[derive(Debug, Clone)]
 pub(crate) struct Averages {
@@ -75,12 +122,8 @@ pub(crate) struct Averages {
 impl Averages {
     /// Of estimates with their numbers of samples.
     pub(crate) fn of(all: &[(Estimate, u64)], truth: f64) -> Self {
-        let mut averages = Self {
-            mean: Statistics::new(),
-            samples: Statistics::new(),
-            scores: Scores::default(),
-            truth,
-        };
+        let mut averages =
+            Self { mean: Statistics::new(), samples: Statistics::new(), scores: Scores::default(), truth };
         for (estimate, samples) in all {
             averages.mean.add(estimate.value);
             averages.samples.add(*samples as f64);

@@ -42,6 +42,48 @@ impl Pipeline for Bins {
     }
 }
 
+/// First, second and third powers of the radiance in every bin, and of that of the whole spectrum: for one ray a
+/// sample only.
+#[derive(Debug)]
+pub(crate) struct Moments(Frame);
+
+impl Moments {
+    /// Empty.
+    pub(crate) fn new() -> Self {
+        Self(Frame::new("moments", "1"))
+    }
+
+    /// Mean, its error, and skewness of the samples of a pixel in a bin; of the whole spectrum after the last bin.
+    pub(crate) fn of(&self, pixel: usize, bin: usize) -> (Estimate, f64) {
+        let moment = |power: usize| self.0.pixel(pixel, 3 * bin + power);
+        let (a, b, c) = (moment(0).value, moment(1).value, moment(2).value);
+        let variance = b - a * a;
+        let skewness = (c - 3.0 * a * b + 2.0 * a * a * a) / variance.powf(1.5);
+        (moment(0), if variance > 0.0 { skewness } else { 0.0 })
+    }
+}
+
+impl Pipeline for Moments {
+    fn channels(&self, slicing: &Slicing) -> Vec<String> {
+        (0..3 * (slicing.bins() + 1)).map(|i| format!("moment {} of {}", i % 3 + 1, i / 3)).collect()
+    }
+
+    fn measure(&self, sample: &Measurement<'_>, out: &mut [f64]) {
+        let whole = sample.radiance.iter().sum::<f64>() * sample.slice.bin_width();
+        for (out, x) in out.chunks_exact_mut(3).zip(sample.radiance.iter().copied().chain([whole])) {
+            out.copy_from_slice(&[x, x * x, x * x * x]);
+        }
+    }
+
+    fn frame(&self) -> &Frame {
+        &self.0
+    }
+
+    fn frame_mut(&mut self) -> &mut Frame {
+        &mut self.0
+    }
+}
+
 /// Looks ahead with a small probability, and back otherwise.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Glimpse {

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use raysect::prelude::*;
 
 use crate::cornell::{self, Variant};
-use crate::sensors::Bins;
+use crate::sensors::Moments;
 
 /// Pixels to a side.
 pub(crate) const SIDE: usize = 8;
@@ -18,8 +18,37 @@ pub(crate) const BINS: usize = 15;
 const SAMPLES: u64 = 1 << 20;
 const SEED: u64 = 1_000_003;
 
-/// Radiance of every pixel in every bin, and after them over the whole spectrum: `[pixel][channel]`.
-pub(crate) type Truth = Vec<Vec<Estimate>>;
+/// What is known of an element of the picture.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Known {
+    /// Its mean.
+    pub(crate) value: f64,
+    /// Standard error of that.
+    error: f64,
+    /// Skewness of its samples.
+    skewness: f64,
+}
+
+/// Every pixel in every bin, and after them over the whole spectrum: `[pixel][channel]`.
+pub(crate) type Truth = Vec<Vec<Known>>;
+
+impl Known {
+    /// True for an element that is dark in every sample.
+    pub(crate) fn is_dark(&self) -> bool {
+        self.value == 0.0 && self.error == 0.0
+    }
+
+    /// Variance of a single sample.
+    pub(crate) fn variance(&self) -> f64 {
+        self.error * self.error * SAMPLES as f64
+    }
+
+    /// True if the mean of so many samples is so close to a normal distribution that 95 % intervals can be relied on:
+    /// more than 25 γ² of them (W. G. Cochran, *Sampling Techniques*, 3rd ed., Wiley 1977, § 2.15).
+    pub(crate) fn is_normal_after(&self, samples: u64) -> bool {
+        samples as f64 > 25.0 * self.skewness * self.skewness
+    }
+}
 
 /// The scene.
 pub(crate) fn world() -> World {
@@ -43,7 +72,8 @@ pub(crate) fn load() -> Truth {
     let truth: Truth = rows
         .map(|row| {
             let numbers: Vec<f64> = row.split_whitespace().map(|x| x.parse().unwrap()).collect();
-            numbers.chunks_exact(2).map(|c| Estimate { value: c[0], error: c[1] }).collect()
+            let known = |c: &[f64]| Known { value: c[0], error: c[1], skewness: c[2] };
+            numbers.chunks_exact(3).map(known).collect()
         })
         .collect();
     assert_eq!(truth.len(), SIDE * SIDE);
@@ -51,22 +81,37 @@ pub(crate) fn load() -> Truth {
     truth
 }
 
+/// The truth of fewer and larger pixels: the averages of those that they cover, of which only the value is known.
+pub(crate) fn coarse(truth: Truth, side: usize) -> Truth {
+    if side == SIDE {
+        return truth;
+    }
+    let each = SIDE / side;
+    let average = |row: usize, column: usize, channel: usize| {
+        let (rows, columns) = (row * each..(row + 1) * each, column * each..(column + 1) * each);
+        let inside = rows.flat_map(|r| columns.clone().map(move |c| truth[r * SIDE + c][channel].value));
+        let value = inside.sum::<f64>() / (each * each) as f64;
+        Known { value, error: f64::NAN, skewness: f64::NAN }
+    };
+    let pixel = |p: usize| (0..=BINS).map(|c| average(p / side, p % side, c)).collect();
+    (0..side * side).map(pixel).collect()
+}
+
 #[test]
 #[ignore = "writes the file that the other tests read; takes some minutes"]
 fn write_truth() {
-    let (mut bins, mut radiance) = (Bins::new(0..BINS), RadiancePipeline2D::new());
-    let camera = camera(SIDE).seed(SEED).pixel_samples(SAMPLES);
-    camera.observe(&world(), &mut (&mut bins, &mut radiance)).unwrap();
+    let mut moments = Moments::new();
+    camera(SIDE).seed(SEED).pixel_samples(SAMPLES).observe(&world(), &mut moments).unwrap();
     let mut text = format!(
         "# Radiance of the diffuse Cornell box (examples/common/cornell.rs), {SIDE}x{SIDE} pixels, {BINS} bins over\n\
-         # 375 to 740 nm. One line a pixel, row by row: mean and standard error in each bin [W/m2/sr/nm], then of\n\
-         # the whole spectrum [W/m2/sr]. Made with {SAMPLES} samples a pixel and seed {SEED} by\n\
-         # cargo test --test statistics -- --ignored write_truth\n"
+         # 375 to 740 nm. One line a pixel, row by row: mean, its standard error, and skewness of the samples, in each\n\
+         # bin [W/m2/sr/nm] and then of the whole spectrum [W/m2/sr]. Made with {SAMPLES} samples a pixel and seed\n\
+         # {SEED} by cargo test --test statistics -- --ignored write_truth\n"
     );
     for pixel in 0..SIDE * SIDE {
-        let channels = (0..BINS).map(|bin| bins.frame().pixel(pixel, bin));
-        for estimate in channels.chain([radiance.frame().pixel(pixel, 0)]) {
-            write!(text, "{:.9e} {:.3e} ", estimate.value, estimate.error).unwrap();
+        for bin in 0..=BINS {
+            let (mean, skewness) = moments.of(pixel, bin);
+            write!(text, "{:.9e} {:.3e} {skewness:.3} ", mean.value, mean.error).unwrap();
         }
         text.truncate(text.trim_end().len());
         text.push('\n');

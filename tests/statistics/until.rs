@@ -7,44 +7,73 @@ use crate::score::Averages;
 use crate::seeds::each_seed;
 use crate::sensors::{glimpse, lamp_at};
 
-/// Samples of 1 / `probability`, seen with this probability: their mean is 1.
-fn averages(probability: f64, seeds: u64, average: impl Fn(&World, u64) -> (Estimate, u64) + Sync) -> Averages {
+/// Probability of a bright sample, relative error to be reached, and number of seeds. Of the cheapest case there are
+/// more, since the bias of a naive rule is hardly seen in a thousand.
+const CASES: [(f64, f64, u64); 4] =
+    [(0.1, 0.1, 4000), (0.1, 0.05, 1000), (0.01, 0.1, 1000), (0.001, 0.1, 1000)];
+
+/// Averages of samples of 1 / `probability` with this probability, and 0 otherwise: their mean is 1.
+fn averages(probability: f64, seeds: u64, average: impl Fn(&World, u64) -> Frame + Sync) -> Averages {
     let world = lamp_at(5.0, 1.0 / probability);
-    Averages::of(&each_seed(1..seeds + 1, |seed| average(&world, seed)), 1.0)
+    let all = each_seed(1..seeds + 1, |seed| {
+        let frame = average(&world, seed);
+        (frame.pixel(0, 0), frame.samples(0))
+    });
+    Averages::of(&all, 1.0)
 }
 
-/// Averages of the library's rule.
+/// Averages that the library's rule ends.
 fn ruled(probability: f64, error: f64, seeds: u64) -> Averages {
     averages(probability, seeds, |world, seed| {
         let mut radiance = RadiancePipeline::new();
         let observer = glimpse(probability).seed(seed);
         let report = observer.observe_until(world, &mut radiance, Stop::relative_error(error)).unwrap();
         assert!(report.convergence.is_some_and(|c| c.reached), "seed {seed}: {report}");
-        (radiance.frame().pixel(0, 0), radiance.frame().samples(0))
+        assert!(radiance.frame().pixel(0, 0).relative_error() <= error);
+        radiance.frame().clone()
     })
 }
 
-/// Averages of a rule that stops at the first good-looking error of the samples that it averages.
+/// Averages that end as soon as their own error looks good.
 fn naive(probability: f64, error: f64, seeds: u64) -> Averages {
     averages(probability, seeds, |world, seed| {
         let mut radiance = RadiancePipeline::new();
         let observer = glimpse(probability).seed(seed).pixel_samples(32);
-        loop {
+        while radiance.frame().is_empty() || radiance.frame().pixel(0, 0).relative_error() > error {
             observer.observe(world, &mut radiance).unwrap();
-            let estimate = radiance.frame().pixel(0, 0);
-            if estimate.relative_error() <= error {
-                return (estimate, radiance.frame().samples(0));
-            }
         }
+        radiance.frame().clone()
     })
 }
 
 #[test]
-fn probe() {
-    for (p, e, n) in [(0.1, 0.1, 4000), (0.1, 0.05, 1000), (0.01, 0.1, 1000), (0.001, 0.1, 1000)] {
-        let t = std::time::Instant::now();
-        println!("{p} {e} {} {:?}", ruled(p, e, n), t.elapsed());
+fn averages_ended_by_a_rule_are_right() {
+    for (probability, error, seeds) in CASES {
+        let averages = ruled(probability, error, seeds);
+        println!("one in {:<5} to {:>3} %: {averages}", 1.0 / probability, 100.0 * error);
+        assert!(averages.holds(), "one in {} to {error}: {averages}", 1.0 / probability);
     }
-    println!("naive {}", naive(0.1, 0.1, 4000));
-    println!("naive {}", naive(0.1, 0.1, 1000));
+}
+
+#[test]
+fn averages_ended_by_a_naive_rule_are_not() {
+    let (probability, error, seeds) = CASES[0];
+    let averages = naive(probability, error, seeds);
+    println!("one in {:<5} to {:>3} %, naive: {averages}", 1.0 / probability, 100.0 * error);
+    assert!(!averages.holds(), "{averages}");
+}
+
+#[test]
+fn averages_with_short_error_bars_are_not() {
+    let (probability, error, seeds) = CASES[1];
+    let world = lamp_at(5.0, 1.0 / probability);
+    let all = each_seed(1..seeds + 1, |seed| {
+        let mut radiance = RadiancePipeline::new();
+        let observer = glimpse(probability).seed(seed);
+        observer.observe_until(&world, &mut radiance, Stop::relative_error(error)).unwrap();
+        let estimate = radiance.frame().pixel(0, 0);
+        (Estimate { error: 0.8 * estimate.error, ..estimate }, radiance.frame().samples(0))
+    });
+    let averages = Averages::of(&all, 1.0);
+    assert!(!averages.holds(), "{averages}");
 }

@@ -347,7 +347,9 @@ impl<A: Attachment> Scene<A> {
         let instance = &self.instances[index as usize];
         let point = instance.to_world.transform_point(sample.point);
         let normal = match instance.similarity {
-            Some(_) => Normal3D::from(instance.to_world.transform_vector(sample.normal.as_vector()) * instance.shrink),
+            Some(_) => Normal3D::from(
+                instance.to_world.transform_vector(sample.normal.as_vector()) * instance.shrink,
+            ),
             None => instance.to_local.transform_normal_with_inverse(sample.normal).normalise_unchecked(),
         };
         let reach = point.max_abs() + instance.stretch * sample.point.max_abs() + instance.shift;

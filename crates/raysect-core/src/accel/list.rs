@@ -23,7 +23,8 @@ struct Group([[[f64; LANES]; 3]; 2]);
 impl Group {
     fn new(boxes: &[BoundingBox3D]) -> Self {
         let of = |lane: usize| boxes.get(lane).copied().unwrap_or(BoundingBox3D::EMPTY);
-        let plane = |pick: fn(&BoundingBox3D) -> Point3D, axis: usize| std::array::from_fn(|l| pick(&of(l))[axis]);
+        let plane =
+            |pick: fn(&BoundingBox3D) -> Point3D, axis: usize| std::array::from_fn(|l| pick(&of(l))[axis]);
         let side = |pick: fn(&BoundingBox3D) -> Point3D| [plane(pick, 0), plane(pick, 1), plane(pick, 2)];
         Self([side(|b| b.lower), side(|b| b.upper)])
     }
@@ -36,7 +37,8 @@ impl Group {
         let (mut first, mut last) = (ray.min, f64x4::splat(simd, f64::INFINITY));
         for axis in 0..3 {
             let distance = |side: bool| {
-                (f64x4::from_slice(simd, &self.0[usize::from(side)][axis]) - ray.origin[axis]) * ray.inverse[axis]
+                (f64x4::from_slice(simd, &self.0[usize::from(side)][axis]) - ray.origin[axis])
+                    * ray.inverse[axis]
             };
             let (near, far) = (distance(ray.backward[axis]), distance(!ray.backward[axis]));
             first = near.simd_gt(first).select(near, first);
@@ -60,9 +62,8 @@ struct PreparedRay<S: Simd> {
 impl<S: Simd> PreparedRay<S> {
     #[inline(always)]
     fn new(simd: S, ray: &TraversalRay) -> Self {
-        let each = |v: [f64; 3]| {
-            [f64x4::splat(simd, v[0]), f64x4::splat(simd, v[1]), f64x4::splat(simd, v[2])]
-        };
+        let each =
+            |v: [f64; 3]| [f64x4::splat(simd, v[0]), f64x4::splat(simd, v[1]), f64x4::splat(simd, v[2])];
         Self {
             origin: each(ray.origin.to_array()),
             inverse: each(ray.inverse.to_array()),

@@ -57,7 +57,8 @@ impl TraversalRay {
         let larger = |a: f64, b: f64| if a > b { a } else { b };
         let smaller = |a: f64, b: f64| if a < b { a } else { b };
         let first = larger(near(2, o.z, i.z), larger(near(1, o.y, i.y), larger(near(0, o.x, i.x), self.min)));
-        let last = smaller(far(2, o.z, i.z), smaller(far(1, o.y, i.y), smaller(far(0, o.x, i.x), f64::INFINITY)));
+        let last =
+            smaller(far(2, o.z, i.z), smaller(far(1, o.y, i.y), smaller(far(0, o.x, i.x), f64::INFINITY)));
         (first <= smaller(larger(last * GROW, last), limit)).then_some(first)
     }
 }

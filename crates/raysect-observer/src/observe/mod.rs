@@ -68,10 +68,11 @@ impl<'a, S: Sensor> Session<'a, S> {
         );
         for pipeline in &mut list {
             if pipeline.needs_etendue()
-                && let Some(pixel) = (0..shape.pixels()).find(|&p| sensor.etendue(p).is_none()) {
-                    let pipeline = pipeline.frame().name().to_owned();
-                    return Err(ObserverError::NoEtendue { pipeline, sensor: sensor.kind(), pixel });
-                }
+                && let Some(pixel) = (0..shape.pixels()).find(|&p| sensor.etendue(p).is_none())
+            {
+                let pipeline = pipeline.frame().name().to_owned();
+                return Err(ObserverError::NoEtendue { pipeline, sensor: sensor.kind(), pixel });
+            }
             let channels = pipeline.channels(&slicing);
             pipeline.frame_mut().prepare(shape, channels, &fingerprint)?;
         }

@@ -82,7 +82,12 @@ impl Light {
         self.volume_scale * instance.to_local.transform_normal_with_inverse(normal).length()
     }
 
-    fn sample(&self, scene: &Scene, from: Point3D, rng: &mut Rng) -> Option<(Vector3D, f64, Option<SurfacePoint>)> {
+    fn sample(
+        &self,
+        scene: &Scene,
+        from: Point3D,
+        rng: &mut Rng,
+    ) -> Option<(Vector3D, f64, Option<SurfacePoint>)> {
         let instance = &scene.instances[self.instance as usize];
         let local_from = instance.to_local.transform_point(from);
         if self.sampling == SurfaceSampling::SolidAngle {

@@ -1,7 +1,6 @@
 //! The media that a path is in, and what they do to it.
 
 use raysect_core::{Leaving, Ray, SurfacePoint};
-use raysect_math::Point3D;
 
 use super::Path;
 use crate::{Coefficients, Medium, MediumPoint, Refraction, SurfaceHit};
@@ -71,21 +70,29 @@ impl Coincident {
 }
 
 impl<'a> Path<'a> {
-    /// Finds the media around the origin of a path.
-    pub(super) fn surround(&mut self, origin: Point3D) {
+    /// Finds the media that a path begins in: those whose surface it meets next from the inside. On a surface this
+    /// is what the direction says, and it agrees with the crossings to come, whatever rounding makes of the origin.
+    pub(super) fn surround(&mut self, ray: &Ray) {
         if !self.scene.compiled.any_medium {
             return;
         }
-        if let Some((known, media)) = self.start.filter(|(known, _)| *known == origin) {
-            self.start = Some((known, media));
-            self.media = media;
-            return;
+        if self.start.is_none_or(|(known, _)| known != ray.origin) {
+            let (facts, mut near, mut fits) = (&self.scene.compiled.facts, MediaList::default(), true);
+            let accelerator = self.scene.accelerator();
+            accelerator.visit_containing(ray.origin, &mut |i| {
+                fits &= !facts[i as usize].has_medium || near.insert(i);
+            });
+            self.ledger.inconsistencies += u64::from(!fits);
+            self.start = Some((ray.origin, near));
         }
-        let (facts, mut media, mut fits) = (&self.scene.compiled.facts, MediaList::default(), true);
-        self.scene.containing(origin, |i| fits &= !facts[i as usize].has_medium || media.insert(i));
-        self.ledger.inconsistencies += u64::from(!fits);
-        self.start = Some((origin, media));
-        self.media = media;
+        self.media = MediaList::default();
+        let near = self.start.map(|(_, near)| near).unwrap_or_default();
+        for &instance in near.as_slice() {
+            let next = self.scene.hit_instance(instance, ray, None, f64::INFINITY, &mut self.scratch);
+            if next.is_some_and(|crossing| crossing.exiting) {
+                self.media.insert(instance);
+            }
+        }
     }
 
     fn medium(&self, instance: u32) -> Option<&'a dyn Medium> {
@@ -95,12 +102,20 @@ impl<'a> Path<'a> {
 
     /// The refracting medium that counts among those of a list.
     fn refracting(&self, media: &MediaList) -> Option<(u32, &'a Refraction)> {
-        let all = media.as_slice().iter().filter_map(|&i| self.medium(i).and_then(|m| m.refraction()).map(|r| (i, r)));
+        let all = media
+            .as_slice()
+            .iter()
+            .filter_map(|&i| self.medium(i).and_then(|m| m.refraction()).map(|r| (i, r)));
         all.max_by_key(|(i, r)| (r.priority, *i))
     }
 
     /// The indices before and behind a surface of a refracting solid; none if the same medium counts on both sides.
-    fn interface(&self, media: &MediaList, surface: &SurfacePoint, others: &Coincident) -> Option<(f64, f64)> {
+    fn interface(
+        &self,
+        media: &MediaList,
+        surface: &SurfacePoint,
+        others: &Coincident,
+    ) -> Option<(f64, f64)> {
         let own = self.medium(surface.instance).and_then(|m| m.refraction())?;
         // What a surface says of itself is believed, whatever the list holds.
         let (mut before, mut behind) = (*media, *media);
@@ -134,12 +149,13 @@ impl<'a> Path<'a> {
         while found.count < COINCIDENT {
             let ray = Ray::new(point, direction).with_max_distance(leaving.zone());
             let Some(next) = scene.hit(&ray, Some(&leaving), &mut self.scratch) else { break };
-            if !self.refracts(next.instance) {
+            let surface = scene.finish(&ray, &next);
+            if self.refracts(next.instance) {
+                found.instances[found.count] = (surface.instance, surface.exiting);
+                found.count += 1;
+            } else if !scene.compiled.facts[next.instance as usize].transparent {
                 break;
             }
-            let surface = scene.finish(&ray, &next);
-            found.instances[found.count] = (surface.instance, surface.exiting);
-            found.count += 1;
             leaving = Leaving::new(&surface, direction, direction, Some(&leaving));
             point = surface.point;
         }
@@ -213,10 +229,11 @@ impl<'a> Path<'a> {
         attenuation.fill(0.0);
         for &instance in media.as_slice() {
             if let Some(medium) = self.medium(instance)
-                && (medium.refraction().is_none() || counts == Some(instance)) {
-                    let mut out = Coefficients { emission: &mut emission, attenuation: &mut attenuation };
-                    medium.coefficients(&at, &mut out);
-                }
+                && (medium.refraction().is_none() || counts == Some(instance))
+            {
+                let mut out = Coefficients { emission: &mut emission, attenuation: &mut attenuation };
+                medium.coefficients(&at, &mut out);
+            }
         }
         (self.emitted, self.attenuation) = (emission, attenuation);
     }

@@ -40,12 +40,16 @@ pub struct Path<'a> {
     emitted: Vec<f64>,
     attenuation: Vec<f64>,
     media: MediaList,
-    /// The media around the last origin of a path: cameras send many rays from one place.
+    /// The media whose boxes hold the last origin of a path: cameras send many rays from one place.
     start: Option<(Point3D, MediaList)>,
     /// Refractive indices before and behind the surface of the moment.
     indices: (f64, f64),
     /// Other refracting surfaces at the place of the moment.
     coincident: Coincident,
+    /// How much more often than by its surfaces alone the path was sent where it goes: at the last scattering, and
+    /// by all of them together.
+    favour: f64,
+    carried: f64,
     depth: u32,
     leaving: Option<Leaving>,
     /// The last place of scattering, and the density of the direction chosen there; none for a delta.
@@ -72,6 +76,8 @@ impl<'a> Path<'a> {
             media: MediaList::default(),
             start: None,
             indices: (1.0, 1.0),
+            favour: 1.0,
+            carried: 1.0,
             depth: 0,
             leaving: None,
             vertex: Vertex { point: Point3D::ORIGIN, instance: None },
@@ -162,7 +168,8 @@ impl<'a> Path<'a> {
         let length = ray.direction.length();
         let end = ray.max_distance * length;
         let mut ray = Ray::new(ray.origin, ray.direction * (1.0 / length)).with_max_distance(end);
-        self.surround(ray.origin);
+        self.surround(&ray);
+        self.carried = 1.0;
         let (mut passes, mut pieces) = (0, end.is_finite());
         loop {
             self.ledger.rays += 1;
@@ -230,16 +237,19 @@ impl<'a> Path<'a> {
             self.radiance.iter_mut().zip(emitted).for_each(|(r, (t, e))| *r += t * e * weight);
         }
         let before = self.density.take();
+        self.favour = 1.0;
         let scatter = material.surface(at, self);
-        if scatter == Scatter::PassThrough {
-            // Straight on through a null surface the last real vertex still counts.
+        if scatter == Scatter::PassThrough && facts.transparent {
+            // Straight on through a null surface the last real vertex still counts. A surface that lets pass without
+            // being transparent stops shadow rays: what is found behind it has been found by chance alone.
             self.density = before;
         }
         scatter
     }
 
     /// Ends paths that carry little any more, in fair play: the survivors carry the share of the dead
-    /// (J. Arvo and D. Kirk, *Particle Transport and Image Synthesis*, SIGGRAPH 1990). Also ends paths that are too
+    /// (J. Arvo and D. Kirk, *Particle Transport and Image Synthesis*, SIGGRAPH 1990). What counts is what the
+    /// surfaces have left of the light, not how often paths were aimed the same way. Also ends paths that are too
     /// deep, which is not fair and therefore reported.
     fn survives(&mut self) -> bool {
         let largest = self.throughput.iter().fold(0.0, |a: f64, &b| if b > a { b } else { a });
@@ -253,13 +263,14 @@ impl<'a> Path<'a> {
             self.ledger.truncated_throughput += mean;
             return false;
         }
-        let threshold = self.settings.roulette_threshold;
-        if largest < threshold {
-            if !self.rng.probability(largest / threshold) {
+        self.carried *= self.favour;
+        let (threshold, left) = (self.settings.roulette_threshold, largest * self.carried);
+        if left < threshold {
+            if !self.rng.probability(left / threshold) {
                 self.ledger.killed += 1;
                 return false;
             }
-            self.scale(threshold / largest);
+            self.scale(threshold / left);
         }
         true
     }

@@ -36,6 +36,11 @@ impl Path<'_> {
         let inverse = 1.0 / density;
         self.throughput.iter_mut().zip(&self.reflected).for_each(|(t, f)| *t *= f * inverse);
         self.density = Some(density);
+        if self.targets().is_some() {
+            let own = bsdf.pdf(incoming, outgoing, at);
+            // A direction that the surface would never take carries nothing, and has been sent back above.
+            self.favour = if own > 0.0 { density / own } else { 1.0 };
+        }
         Scatter::Continue { direction }
     }
 
