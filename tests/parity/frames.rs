@@ -1,6 +1,7 @@
 //! Our pictures, and the recorded ones of the same pixels.
 
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 use crate::comparison::{Comparison, Picture, compare};
 use crate::cornell::Variant;
@@ -25,6 +26,12 @@ pub(crate) fn recorded(variant: Variant) -> Picture {
 /// Our frame of so many columns and rows.
 pub(crate) fn ours(variant: Variant, columns: usize, rows: usize, seed: u64) -> Picture {
     reference::render(variant, columns, rows, BINS, seed, ERROR).unwrap()
+}
+
+/// Our frame of the diffuse box of the size of the recorded one, rendered once for all tests.
+pub(crate) fn diffuse() -> &'static Picture {
+    static PICTURE: OnceLock<Picture> = OnceLock::new();
+    PICTURE.get_or_init(|| ours(Variant::Diffuse, 24, 24, 1))
 }
 
 /// Compares two pictures, and writes what is found.
@@ -53,6 +60,5 @@ fn glass_agrees_with_the_recorded_frame() {
 
 #[test]
 fn diffuse_agrees_with_the_recorded_frame() {
-    let theirs = recorded(Variant::Diffuse);
-    assert_agree("diffuse", &ours(Variant::Diffuse, theirs.columns, theirs.rows, 1), &theirs);
+    assert_agree("diffuse", diffuse(), &recorded(Variant::Diffuse));
 }

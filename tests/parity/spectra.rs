@@ -1,31 +1,34 @@
 //! Other numbers of bins.
 
-use raysect::prelude::*;
-
-use crate::comparison::{Picture, compare};
-use crate::cornell::{self, Variant};
-use crate::frames::ERROR;
+use crate::comparison::Picture;
+use crate::cornell::Variant;
+use crate::frames::{ERROR, assert_agree, judge};
 use crate::reference;
 
+/// A small picture with a number of bins.
+fn picture(bins: usize, seed: u64) -> Picture {
+    reference::render(Variant::Diffuse, 16, 16, bins, seed, ERROR).unwrap()
+}
+
+/// Sum over all pixels of a channel.
+fn total(picture: &Picture, channel: usize) -> f64 {
+    picture.mean.iter().skip(channel).step_by(picture.channels).sum()
+}
+
 #[test]
-fn probe() {
-    for (a, b) in [(15, 30), (15, 60), (30, 60), (15, 10)] {
-        let r = |bins, seed| reference::render(Variant::Diffuse, 8, 8, bins, seed, 0.01).unwrap();
-        let (x, y) = (r(a, 1), r(b, 2));
-        let c = compare(&x, &y).unwrap();
-        println!("{a} {b} {c}");
-        for (s, ok) in c.criteria(ERROR) {
-            println!("   {ok} {s}");
-        }
-        for ch in 0..3 {
-            let t = |p: &Picture| {
-                (
-                    p.mean.iter().skip(ch).step_by(3).sum::<f64>(),
-                    p.error.iter().skip(ch).step_by(3).map(|e| e * e).sum::<f64>().sqrt(),
-                )
-            };
-            println!("{:?} {:?} {}", t(&x), t(&y), t(&x).0 / t(&y).0 - 1.0);
-        }
+fn more_bins_show_the_same() {
+    let coarse = picture(15, 1);
+    assert_agree("15 and 30 bins", &coarse, &picture(30, 2));
+    // Three bins cannot hold the colours of the walls.
+    assert!(!judge("15 and 3 bins", &coarse, &picture(3, 2)).holds(f64::INFINITY));
+}
+
+#[test]
+fn the_same_rays_differ_by_the_width_of_the_bins_alone() {
+    let (coarse, fine) = (picture(15, 1), picture(30, 1));
+    for channel in 0..3 {
+        let ratio = total(&coarse, channel) / total(&fine, channel);
+        println!("channel {channel}: {:+.3} %", 100.0 * (ratio - 1.0));
+        assert!((ratio - 1.0).abs() < 0.005, "channel {channel}: {ratio}");
     }
-    let _ = cornell::camera((1, 1)).map(|c: PinholeCamera| c);
 }

@@ -87,14 +87,15 @@ pub(crate) fn coarse(truth: Truth, side: usize) -> Truth {
         return truth;
     }
     let each = SIDE / side;
-    let average = |row: usize, column: usize, channel: usize| {
-        let (rows, columns) = (row * each..(row + 1) * each, column * each..(column + 1) * each);
-        let inside = rows.flat_map(|r| columns.clone().map(move |c| truth[r * SIDE + c][channel].value));
-        let value = inside.sum::<f64>() / (each * each) as f64;
-        Known { value, error: f64::NAN, skewness: f64::NAN }
-    };
-    let pixel = |p: usize| (0..=BINS).map(|c| average(p / side, p % side, c)).collect();
-    (0..side * side).map(pixel).collect()
+    let empty = Known { value: 0.0, error: f64::NAN, skewness: f64::NAN };
+    let mut averages = vec![vec![empty; BINS + 1]; side * side];
+    for (pixel, channels) in truth.iter().enumerate() {
+        let (row, column) = (pixel / SIDE / each, pixel % SIDE / each);
+        for (average, known) in averages[row * side + column].iter_mut().zip(channels) {
+            average.value += known.value / (each * each) as f64;
+        }
+    }
+    averages
 }
 
 #[test]

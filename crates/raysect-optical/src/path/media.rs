@@ -240,12 +240,7 @@ impl<'a> Path<'a> {
 
     /// Solves dL/ds = j − α L along a piece of the path, exactly.
     pub(super) fn cross_media(&mut self, ray: &Ray, distance: f64) {
-        if distance == 0.0 {
-            return;
-        }
-        if distance.is_infinite() {
-            // Volumes are closed: a ray that leaves one without a surface has lost its way.
-            self.ledger.lost += 1;
+        if distance == 0.0 || distance.is_infinite() {
             return;
         }
         let media = self.media;

@@ -179,7 +179,9 @@ impl<'a> Path<'a> {
                 self.cross_media(&ray, distance);
             }
             let Some(hit) = hit else {
-                self.ledger.escaped += 1;
+                // Volumes are closed: a ray that leaves one without a surface has lost its way.
+                let lost = !self.media.is_empty() && ray.max_distance.is_infinite();
+                *(if lost { &mut self.ledger.lost } else { &mut self.ledger.escaped }) += 1;
                 return;
             };
             let surface = self.scene.finish(&ray, &hit);
