@@ -117,7 +117,6 @@ fn the_same_place_by_another_parent_is_the_same() {
 
 #[test]
 fn a_cleared_pipeline_takes_anything() {
-    use raysect::observer::Pipeline;
     let (world, mut rgb) = begun();
     rgb.frame_mut().clear();
     camera(10).seed(2).observe(&world, &mut rgb).unwrap();

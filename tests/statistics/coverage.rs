@@ -67,9 +67,9 @@ fn after_256_and_1024_samples() {
 
 #[test]
 fn totals_after_256_and_1024_samples() {
-    // Fewer pixels of the same scene, so that there is time for 1500 seeds: 200 totals tell too little.
-    let [stage] = observe(4, [(256, 1500)]);
+    // Fewer pixels of the same scene, so that there is time for 1000 seeds: 200 totals tell too little.
+    let [stage] = observe(4, [(256, 1000)]);
     assert_total(256, &stage);
-    let [stage] = observe(2, [(1024, 1500)]);
+    let [stage] = observe(2, [(1024, 1000)]);
     assert_total(1024, &stage);
 }

@@ -1,5 +1,6 @@
 //! Are the error bars right, and are the averages that a stop rule ends unbiased?
 
+#[allow(dead_code, reason = "glass is not looked at here")]
 #[path = "../../examples/common/cornell.rs"]
 mod cornell;
 

@@ -1,6 +1,6 @@
 //! The true radiance of each pixel of a small picture, from a run that is long enough to be called true.
 //!
-//! `cargo test --test statistics -- --ignored write_truth` makes it anew.
+//! `cargo test --test statistics -- --ignored --nocapture write_truth` makes it anew, and says where.
 
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -99,7 +99,7 @@ pub(crate) fn coarse(truth: Truth, side: usize) -> Truth {
 }
 
 #[test]
-#[ignore = "writes the file that the other tests read; takes some minutes"]
+#[ignore = "takes some minutes; writes a file, to be copied to where the other tests read it"]
 fn write_truth() {
     let mut moments = Moments::new();
     camera(SIDE).seed(SEED).pixel_samples(SAMPLES).observe(&world(), &mut moments).unwrap();
@@ -117,5 +117,7 @@ fn write_truth() {
         text.truncate(text.trim_end().len());
         text.push('\n');
     }
-    std::fs::write(file(), text).unwrap();
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(file().file_name().unwrap());
+    std::fs::write(&path, text).unwrap();
+    println!("{}", path.display());
 }

@@ -77,9 +77,3 @@ fn averages_with_short_error_bars_are_not() {
     let averages = Averages::of(&all, 1.0);
     assert!(!averages.holds(), "{averages}");
 }
-#[test]
-fn zz_probe() {
-    for (p, e, n) in [(0.1, 0.1, 100_000), (0.1, 0.05, 40_000), (0.01, 0.1, 20_000)] {
-        println!("{p} {e} {}", ruled(p, e, n));
-    }
-}

@@ -99,22 +99,30 @@ impl Frame {
         }
     }
 
-    /// Makes room for an observation, or continues the one of the same fingerprint.
-    pub(crate) fn prepare(
-        &mut self,
+    /// Refuses an observation that is not of the same fingerprint as what it has.
+    pub(crate) fn check(
+        &self,
         shape: FrameShape,
-        channels: Vec<String>,
+        channels: &[String],
         fingerprint: &str,
     ) -> Result<(), ObserverError> {
         if self.is_empty() {
-            let size = shape.pixels() * (HEADER + 2 * channels.len());
-            (self.shape, self.channels, self.fingerprint) = (shape, channels, fingerprint.to_owned());
-            (self.closed, self.open) = (vec![0.0; size], vec![0.0; size]);
-        } else if self.fingerprint != fingerprint || self.shape != shape || self.channels != channels {
+            return Ok(());
+        }
+        if self.fingerprint != fingerprint || self.shape != shape || self.channels != channels {
             let (name, before, now) = (self.name.clone(), self.fingerprint.clone(), fingerprint.to_owned());
             return Err(ObserverError::OtherFrame { name, before, now });
         }
         Ok(())
+    }
+
+    /// Makes room for an observation, unless there is already; it must have passed [`check`](Self::check).
+    pub(crate) fn prepare(&mut self, shape: FrameShape, channels: Vec<String>, fingerprint: &str) {
+        if self.is_empty() {
+            let size = shape.pixels() * (HEADER + 2 * channels.len());
+            (self.shape, self.channels, self.fingerprint) = (shape, channels, fingerprint.to_owned());
+            (self.closed, self.open) = (vec![0.0; size], vec![0.0; size]);
+        }
     }
 
     /// Forgets all samples.
@@ -199,8 +207,11 @@ impl Frame {
         block
     }
 
-    /// Samples of a pixel.
+    /// Samples of a pixel; none before the first observation.
     pub fn samples(&self, pixel: usize) -> u64 {
+        if self.is_empty() {
+            return 0;
+        }
         let start = self.range(pixel).start;
         self.closed[start] as u64 + self.open[start] as u64
     }
@@ -284,7 +295,7 @@ mod tests {
         let mut rng = Rng::new(8);
         let shape = FrameShape::Image { columns: 2, rows: 1 };
         let mut frame = Frame::new("test", "1");
-        frame.prepare(shape, vec!["a".into(), "b".into()], "x").unwrap();
+        frame.prepare(shape, vec!["a".into(), "b".into()], "x");
         let mut plain = Statistics::new();
         let mut block = vec![0.0; frame.stride()];
         for _ in 0..1000 {
@@ -308,10 +319,11 @@ mod tests {
     fn a_frame_takes_nothing_else() {
         let mut frame = Frame::new("test", "1");
         let shape = FrameShape::Single;
-        frame.prepare(shape, vec!["a".into()], "one range").unwrap();
-        assert!(frame.prepare(shape, vec!["a".into()], "one range").is_ok());
-        assert!(frame.prepare(shape, vec!["a".into()], "another range").is_err());
+        let channels = ["a".to_owned()];
+        frame.prepare(shape, channels.to_vec(), "one range");
+        assert!(frame.check(shape, &channels, "one range").is_ok());
+        assert!(frame.check(shape, &channels, "another range").is_err());
         frame.clear();
-        assert!(frame.prepare(shape, vec!["a".into()], "another range").is_ok());
+        assert!(frame.check(shape, &channels, "another range").is_ok());
     }
 }

@@ -80,6 +80,12 @@ pub trait Sensor: Send + Sync {
     /// ∫∫ response cos θ dΩ dA of a pixel [m² sr], by which radiance becomes power; none if it is not known.
     fn etendue(&self, pixel: usize) -> Option<f64>;
 
+    /// Everything that makes its samples what they are: frames of sensors that describe themselves differently are
+    /// never added up. By default what it is and how many pixels it has; a sensor with settings names them here.
+    fn description(&self) -> String {
+        format!("{} of {}", self.kind(), self.shape())
+    }
+
     /// What it is, for messages and `plan`.
     fn kind(&self) -> &'static str {
         let full = std::any::type_name::<Self>();

@@ -133,9 +133,9 @@ impl Element {
     /// True if nothing has been seen, and what could hide is negligible: fewer than one in n / 3 samples at 95 %
     /// confidence (the rule of three), none larger than the largest seen anywhere.
     fn is_negligible(&self) -> bool {
-        self.contributing == 0
-            && self.samples > 0
-            && 3.0 / self.samples as f64 * self.largest <= self.negligible
+        // Where nothing at all has been seen, nothing is known of what could hide.
+        let hidden = 3.0 / self.samples as f64 * self.largest;
+        self.contributing == 0 && self.largest > 0.0 && hidden <= self.negligible
     }
 
     pub(crate) fn is_converged(&self) -> bool {
@@ -148,7 +148,14 @@ impl Element {
         if self.is_negligible() {
             return Some(self.samples as f64);
         }
-        if self.contributing < CONTRIBUTING || self.target <= 0.0 {
+        if self.contributing < CONTRIBUTING {
+            return None;
+        }
+        if self.estimate.error == 0.0 {
+            // Dark in this channel, or without noise.
+            return Some(self.samples as f64);
+        }
+        if self.target <= 0.0 {
             return None;
         }
         let ratio = self.estimate.error / self.target;

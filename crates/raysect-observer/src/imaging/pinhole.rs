@@ -158,6 +158,22 @@ impl Sensor for Pinhole {
         }
     }
 
+    fn description(&self) -> String {
+        let etendue = match &self.etendue {
+            Etendue::Map(map) => {
+                // A map is told apart by a digest of its bits.
+                let digest = map
+                    .iter()
+                    .fold(0u64, |d, x| (d.rotate_left(5) ^ x.to_bits()).wrapping_mul(0x0100_0000_01b3));
+                format!("map {digest:016x}")
+            }
+            known => format!("{known:?}"),
+        };
+        let weighted = if self.cosine_weighted { ", cosine-weighted" } else { "" };
+        let (kind, shape) = (self.kind(), self.shape());
+        format!("{kind} of {shape}, pixels {:e} wide at distance 1, étendue {etendue}{weighted}", self.pitch)
+    }
+
     fn kind(&self) -> &'static str {
         "pinhole camera"
     }

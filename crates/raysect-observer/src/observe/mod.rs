@@ -57,8 +57,8 @@ impl<'a, S: Sensor> Session<'a, S> {
         to_world.inverse()?;
         let (sensor, shape) = (observer.sensor(), observer.sensor().shape());
         let fingerprint = format!(
-            "{} of {shape} at {:?}, {} bins over {} … {} nm in {} slices, seed {}",
-            sensor.kind(),
+            "{} at {:?}, {} bins over {} … {} nm in {} slices, seed {}",
+            sensor.description(),
             to_world.to_rows(),
             slicing.bins(),
             slicing.min_wavelength(),
@@ -73,10 +73,13 @@ impl<'a, S: Sensor> Session<'a, S> {
                 let pipeline = pipeline.frame().name().to_owned();
                 return Err(ObserverError::NoEtendue { pipeline, sensor: sensor.kind(), pixel });
             }
-            let channels = pipeline.channels(&slicing);
-            pipeline.frame_mut().prepare(shape, channels, &fingerprint)?;
+            pipeline.frame().check(shape, &pipeline.channels(&slicing), &fingerprint)?;
         }
-        check_equal(&list)?;
+        check_equal(&list, shape.pixels())?;
+        for pipeline in &mut list {
+            let channels = pipeline.channels(&slicing);
+            pipeline.frame_mut().prepare(shape, channels, &fingerprint);
+        }
         let report = RenderReport {
             pixels: shape.pixels(),
             passes: 0,
@@ -112,7 +115,7 @@ impl<'a, S: Sensor> Session<'a, S> {
 
     pub(crate) fn observe(mut self, samples: u64) -> Result<RenderReport, ObserverError> {
         self.meter.foresee(samples * self.pixels());
-        self.take(samples, None)?;
+        self.take(samples, u64::MAX, None)?;
         Ok(self.finish())
     }
 
@@ -121,8 +124,9 @@ impl<'a, S: Sensor> Session<'a, S> {
         self.report
     }
 
-    /// Takes more samples of every pixel, in passes of a few seconds, until the deadline [s]; the number taken.
-    fn take(&mut self, samples: u64, deadline: Option<f64>) -> Result<u64, ObserverError> {
+    /// Takes more samples of every pixel that has fewer than `limit`, in passes of a few seconds, until the deadline
+    /// [s]; the number taken.
+    fn take(&mut self, samples: u64, limit: u64, deadline: Option<f64>) -> Result<u64, ObserverError> {
         let mut done = 0;
         let mut speed: Option<f64> = None;
         while done < samples && !self.report.cancelled {
@@ -134,7 +138,7 @@ impl<'a, S: Sensor> Session<'a, S> {
             let wanted = speed.map_or(1, |per_second| ((per_second * time) as u64).max(1));
             let count = wanted.min(samples - done);
             let before = self.meter.elapsed().as_secs_f64();
-            self.main_pass(count)?;
+            self.main_pass(count, limit)?;
             let took = (self.meter.elapsed().as_secs_f64() - before).max(1e-9);
             speed = Some(count as f64 / took);
             done += count;
@@ -143,11 +147,11 @@ impl<'a, S: Sensor> Session<'a, S> {
     }
 
     /// One pass of the samples that count.
-    fn main_pass(&mut self, count: u64) -> Result<(), ObserverError> {
+    fn main_pass(&mut self, count: u64, limit: u64) -> Result<(), ObserverError> {
         self.frames =
             self.pipelines.iter_mut().map(|p| std::mem::replace(p.frame_mut(), Frame::new("", ""))).collect();
         let mut frames = std::mem::take(&mut self.frames);
-        let outcome = self.pass(&mut frames, MAIN_LANE, count);
+        let outcome = self.pass(&mut frames, MAIN_LANE, count, limit);
         for (pipeline, frame) in self.pipelines.iter_mut().zip(frames) {
             *pipeline.frame_mut() = frame;
         }
@@ -160,10 +164,10 @@ impl<'a, S: Sensor> Session<'a, S> {
     }
 }
 
-fn check_equal(list: &[&mut dyn Pipeline]) -> Result<(), ObserverError> {
+fn check_equal(list: &[&mut dyn Pipeline], pixels: usize) -> Result<(), ObserverError> {
     let first = list[0].frame();
     for other in list[1..].iter().map(|p| p.frame()) {
-        let unequal = (0..first.shape().pixels()).find(|&p| first.samples(p) != other.samples(p));
+        let unequal = (0..pixels).find(|&p| first.samples(p) != other.samples(p));
         if let Some(pixel) = unequal {
             return Err(ObserverError::UnequalPipelines {
                 first: first.name().to_owned(),

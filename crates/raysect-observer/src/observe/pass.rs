@@ -36,13 +36,14 @@ struct Items {
 }
 
 impl Items {
-    fn new(frame: &Frame, count: u64, workers: usize, slices: usize) -> Self {
+    fn new(frame: &Frame, count: u64, limit: u64, workers: usize, slices: usize) -> Self {
         let pixels = frame.shape().pixels();
         let all = pixels as u64 * count;
         let size = (all / (16 * workers as u64)).clamp(1, (ITEM_SAMPLES / slices as u64).max(1));
         let mut tasks = Vec::with_capacity(pixels);
         for pixel in 0..pixels {
-            let (mut first, end) = (frame.samples(pixel), frame.samples(pixel) + count);
+            let mut first = frame.samples(pixel);
+            let end = first.saturating_add(count).min(limit);
             while first < end {
                 // Only whole blocks can be computed apart from each other.
                 let stop = ((first + size) / BLOCK * BLOCK).max((first / BLOCK + 1) * BLOCK).min(end);
@@ -75,9 +76,16 @@ struct Shared<'s, 'a, S: Sensor> {
 }
 
 impl<'a, S: Sensor> Session<'a, S> {
-    /// Takes `count` more samples of every pixel into `frames`; answers with the number of samples taken.
-    pub(super) fn pass(&mut self, frames: &mut [Frame], lane: u64, count: u64) -> Result<u64, ObserverError> {
-        let items = Items::new(&frames[0], count, self.engine.workers(), self.slices.len());
+    /// Takes `count` more samples of every pixel into `frames`, but none beyond `limit`; answers with the number of
+    /// samples taken.
+    pub(super) fn pass(
+        &mut self,
+        frames: &mut [Frame],
+        lane: u64,
+        count: u64,
+        limit: u64,
+    ) -> Result<u64, ObserverError> {
+        let items = Items::new(&frames[0], count, limit, self.engine.workers(), self.slices.len());
         let strides: Vec<usize> = frames.iter().map(Frame::stride).collect();
         let (mut ledger, mut invalid, mut samples, mut cancelled) = (Ledger::default(), 0, 0, false);
         let mut meter = std::mem::replace(&mut self.meter, crate::progress::Meter::new(0, true, None));

@@ -19,7 +19,7 @@ impl<S: Sensor> Session<'_, S> {
             let pixels = self.pixels();
             self.meter.foresee(stop.samples.unwrap_or(0).saturating_mul(pixels));
             let before = self.samples_before();
-            self.take(limit.saturating_sub(before), deadline)?;
+            self.take(limit.saturating_sub(before), limit, deadline)?;
             return Ok(self.finish());
         }
         let (foreseen, pilot_samples) = self.pilot(stop, limit, deadline)?;
@@ -28,9 +28,9 @@ impl<S: Sensor> Session<'_, S> {
         loop {
             let before = self.samples_before();
             let pixels = self.pixels();
-            self.meter.foresee((wanted + pilot_samples).saturating_mul(pixels));
+            self.meter.foresee(wanted.saturating_add(pilot_samples).saturating_mul(pixels));
             let due = wanted.saturating_sub(before);
-            let taken = self.take(due, deadline)?;
+            let taken = self.take(due, wanted, deadline)?;
             let frames: Vec<Frame> = self.pipelines.iter().map(|p| p.frame().clone()).collect();
             let looked_at = elements(stop, &frames);
             let (reached, unconverged) = verdict(stop, &looked_at);
@@ -60,7 +60,7 @@ impl<S: Sensor> Session<'_, S> {
             self.meter.say("pilot".to_owned());
             let pixels = self.pixels();
             self.meter.foresee((done + next) * pixels);
-            self.pass(&mut frames, PILOT_LANE, next)?;
+            self.pass(&mut frames, PILOT_LANE, next, u64::MAX)?;
             done += next;
             let needed = needed_samples(stop, &elements(stop, &frames));
             let late = deadline.is_some_and(|d| self.meter.elapsed().as_secs_f64() >= PILOT_SHARE * d);
