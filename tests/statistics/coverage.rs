@@ -11,14 +11,16 @@ use crate::score::Scores;
 
 /// By how much error bars are shrunk, and averages shifted by a share of them, for the negative controls.
 const SHRUNK: f64 = 0.9;
+/// A thousand totals have a scatter of 1.5 % themselves and cannot tell 10 %.
+const SHRUNK_TOTAL: f64 = 0.8;
 const SHIFTED: f64 = 0.5;
 
-/// Asserts that intervals cover what they should, and that those of error bars 10 % too short do not.
+/// Asserts that intervals cover what they should, and that those of error bars too short do not.
 #[track_caller]
-fn assert_covers(what: &str, scores: &Scores) {
+fn assert_covers(what: &str, scores: &Scores, shrink: f64) {
     println!("{what:<42} {}", scores.coverage(1.0));
     assert!(scores.coverage(1.0).holds(), "{what}: {}", scores.coverage(1.0));
-    let (shrunk, shifted) = (scores.coverage(SHRUNK), scores.shifted(SHIFTED).coverage(1.0));
+    let (shrunk, shifted) = (scores.coverage(shrink), scores.shifted(SHIFTED).coverage(1.0));
     assert!(!shrunk.holds(), "{what}, shrunk: {shrunk}");
     assert!(!shifted.holds(), "{what}, shifted: {shifted}");
 }
@@ -36,15 +38,15 @@ fn assert_calibrated(what: &str, kind: &Kind) {
 fn assert_elements(samples: u64, stage: &Stage) {
     for (name, kind) in stage.kinds() {
         assert_calibrated(&format!("{samples} samples, {name}"), kind);
-        assert_covers(&format!("{samples} samples, {name}, by Cochran's rule"), &kind.normal);
+        assert_covers(&format!("{samples} samples, {name}, by Cochran's rule"), &kind.normal, SHRUNK);
     }
 }
 
 /// Asserts it of the total.
 #[track_caller]
 fn assert_total(samples: u64, stage: &Stage) {
-    assert_covers(&format!("{samples} samples, total"), &stage.total);
-    assert_covers(&format!("{samples} samples, total in bin 7"), &stage.bin_total);
+    assert_covers(&format!("{samples} samples, total"), &stage.total, SHRUNK_TOTAL);
+    assert_covers(&format!("{samples} samples, total in bin 7"), &stage.bin_total, SHRUNK_TOTAL);
 }
 
 #[test]
@@ -61,15 +63,15 @@ fn after_256_and_1024_samples() {
     assert_elements(256, &after_256);
     assert_elements(1024, &after_1024);
     for (name, kind) in after_1024.kinds() {
-        assert_covers(&format!("1024 samples, {name}, all"), &kind.all);
+        assert_covers(&format!("1024 samples, {name}, all"), &kind.all, SHRUNK);
     }
 }
 
 #[test]
 fn totals_after_256_and_1024_samples() {
-    // Fewer pixels of the same scene, so that there is time for 1000 seeds: 200 totals tell too little.
-    let [stage] = observe(4, [(256, 1000)]);
+    // Fewer pixels of the same scene, so that there is time for 1500 seeds: 200 totals tell too little.
+    let [stage] = observe(4, [(256, 1500)]);
     assert_total(256, &stage);
-    let [stage] = observe(2, [(1024, 1000)]);
+    let [stage] = observe(2, [(1024, 1500)]);
     assert_total(1024, &stage);
 }
