@@ -40,6 +40,18 @@ impl Vector3D {
     pub const Y: Self = Self::new(0.0, 1.0, 0.0);
     /// Unit vector along z (forward).
     pub const Z: Self = Self::new(0.0, 0.0, 1.0);
+    /// Unit vector upwards, +y.
+    pub const UP: Self = Self::Y;
+    /// Unit vector downwards, −y.
+    pub const DOWN: Self = Self::new(0.0, -1.0, 0.0);
+    /// Unit vector to the left, +x.
+    pub const LEFT: Self = Self::X;
+    /// Unit vector to the right, −x.
+    pub const RIGHT: Self = Self::new(-1.0, 0.0, 0.0);
+    /// Unit vector forwards, +z.
+    pub const FORWARD: Self = Self::Z;
+    /// Unit vector backwards, −z.
+    pub const BACK: Self = Self::new(0.0, 0.0, -1.0);
     /// The null vector.
     pub const ZERO: Self = Self::new(0.0, 0.0, 0.0);
 
