@@ -1,10 +1,12 @@
 //! 68 % of the intervals of one error to each side, and 95 % of those of 1.96 errors, must cover the truth.
 //!
-//! A standard error makes such intervals where the mean is normally distributed. The samples of a pixel of this scene
-//! are skewed (γ = 5 in the median: the ceiling is some twenty times brighter beside the lamp than elsewhere, and few
-//! paths come there), so that 64 of them do not suffice, whoever averages them: then only the elements are judged
-//! that satisfy Cochran's rule, n > 25 γ². All of them are judged after 1024 samples. Whatever the distribution, the
-//! mean square of the errors must be that of the differences from the truth: this is asked of all elements.
+//! A standard error makes such intervals where the mean is normally distributed and the error well known. The samples
+//! of a pixel of this scene are skewed (γ = 5 in the median: the ceiling is some twenty times brighter beside the lamp
+//! than elsewhere, and few paths come there), so that 64 of them do not suffice, whoever averages them; and where an
+//! edge of the lamp runs through a pixel its error is that of the few pairs of samples that straddle the edge. Single
+//! elements are therefore judged from 256 samples on if they satisfy Cochran's rule, n > 25 γ², and all of them after
+//! 1024 samples. Whatever the distribution, the mean square of the errors must be that of the differences from the
+//! truth: this is asked of all elements after any number of samples; and sums over the picture must cover at once.
 
 use crate::pictures::{Kind, Stage, observe};
 use crate::score::Scores;
@@ -33,11 +35,15 @@ fn assert_calibrated(what: &str, kind: &Kind) {
     assert!(!kind.scatter.with_errors_times(SHRUNK).holds(), "{what}, shrunk");
 }
 
-/// Asserts what holds of the elements after any number of samples.
+/// Asserts what holds of the elements after any number of samples, and of those that are nearly normal after a few
+/// hundred.
 #[track_caller]
 fn assert_elements(samples: u64, stage: &Stage) {
     for (name, kind) in stage.kinds() {
         assert_calibrated(&format!("{samples} samples, {name}"), kind);
+        if samples < 256 {
+            continue;
+        }
         assert_covers(&format!("{samples} samples, {name}, by Cochran's rule"), &kind.normal, SHRUNK);
     }
 }

@@ -21,7 +21,7 @@ pub use frame::Frame;
 pub use normal::Normal3D;
 pub use point::{Point2D, Point3D};
 pub use quadrature::integrate;
-pub use random::{Rng, StreamKey};
+pub use random::{Rng, Stratum, StreamKey};
 pub use sampling::cone::{Cone, ConeCosineSampler, ConeUniformSampler};
 pub use sampling::disk::DiskSampler3D;
 pub use sampling::hemisphere::{HemisphereCosineSampler, HemisphereUniformSampler};

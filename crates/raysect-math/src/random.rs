@@ -31,7 +31,21 @@ pub struct StreamKey {
 /// assert_ne!(Rng::new(0).uniform(), Rng::new(1).uniform());
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Rng(Pcg64Mcg);
+pub struct Rng {
+    generator: Pcg64Mcg,
+    stratum: Stratum,
+    /// How many of the next uniforms lie in the stratum.
+    confined: u8,
+}
+
+/// A cell of the unit square cut into 2^bits equal columns and rows.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Stratum {
+    /// Column and row.
+    pub cell: [u8; 2],
+    /// Logarithms to base two of the numbers of columns and rows.
+    pub bits: [u8; 2],
+}
 
 /// One step of SplitMix64's output function: a bijection that mixes every bit into every other
 /// (G. Steele, D. Lea, C. Flood, *Fast splittable pseudorandom number generators*, OOPSLA 2014).
@@ -63,13 +77,19 @@ impl Rng {
         let mut state = [0; 16];
         state[..8].copy_from_slice(&low);
         state[8..].copy_from_slice(&high);
-        Self(Pcg64Mcg::from_seed(state))
+        Self { generator: Pcg64Mcg::from_seed(state), stratum: Stratum::default(), confined: 0 }
+    }
+
+    /// The same generator, but its next two uniforms lie in a cell of the unit square: for stratified sampling of
+    /// what is drawn first. Uniforms of a cell drawn at random are uniform in the whole square.
+    pub fn confined_to(self, stratum: Stratum) -> Self {
+        Self { stratum, confined: 2, ..self }
     }
 
     /// Sixty-four random bits.
     #[inline]
     pub fn bits(&mut self) -> u64 {
-        self.0.next_u64()
+        self.generator.next_u64()
     }
 
     /// Uniform in the open interval (0, 1): one of 2⁵² values (k + ½) · 2⁻⁵², never 0 and never 1, so that
@@ -77,7 +97,20 @@ impl Rng {
     #[inline]
     pub fn uniform(&mut self) -> f64 {
         const STEP: f64 = 1.0 / (1u64 << 52) as f64;
-        ((self.bits() >> 12) as f64 + 0.5) * STEP
+        let mut bits = self.bits() >> 12;
+        if self.confined > 0 {
+            bits = self.confine(bits);
+        }
+        (bits as f64 + 0.5) * STEP
+    }
+
+    /// The same 52 bits, moved down to make room for those of the stratum.
+    #[cold]
+    fn confine(&mut self, bits: u64) -> u64 {
+        let axis = usize::from(2 - self.confined);
+        self.confined -= 1;
+        let (cell, taken) = (u64::from(self.stratum.cell[axis]), self.stratum.bits[axis]);
+        cell << (52 - taken) | bits >> taken
     }
 
     /// Uniform in (`low`, `high`).
@@ -141,6 +174,24 @@ mod tests {
         }
         assert!(low > 0.0 && high < 1.0);
         assert!((sum / n as f64 - 0.5).abs() < 4.0 / (12.0 * n as f64).sqrt());
+    }
+
+    #[test]
+    fn the_first_two_uniforms_stay_in_their_cell() {
+        let stratum = Stratum { cell: [5, 1], bits: [3, 2] };
+        let (mut sum, n) = ([0.0; 3], 10_000);
+        for seed in 0..n {
+            let mut rng = Rng::new(seed).confined_to(stratum);
+            let u = [rng.uniform(), rng.uniform(), rng.uniform()];
+            assert!(u[0] > 0.625 && u[0] < 0.75 && u[1] > 0.25 && u[1] < 0.5, "{u:?}");
+            sum.iter_mut().zip(u).for_each(|(s, u)| *s += u);
+        }
+        for (sum, (middle, width)) in sum.into_iter().zip([(0.6875, 0.125), (0.375, 0.25), (0.5, 1.0)]) {
+            let sigma = width / (12.0 * n as f64).sqrt();
+            assert!((sum / n as f64 - middle).abs() < 4.0 * sigma);
+        }
+        let last = Rng::new(1).confined_to(Stratum { cell: [255; 2], bits: [8; 2] }).uniform();
+        assert!(last < 1.0);
     }
 
     #[test]

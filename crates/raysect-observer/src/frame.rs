@@ -28,23 +28,34 @@ impl std::fmt::Display for Estimate {
 
 /// The samples of a pixel are folded in blocks of this many, at absolute places: it fixes the bits of every result,
 /// whatever the number of threads and passes.
-pub const BLOCK: u64 = 128;
+pub const BLOCK: u64 = 32;
 
 /// What every block begins with: samples, samples that are not zero, largest absolute value.
-pub(crate) const HEADER: usize = 3;
+const HEADER: usize = 3;
 
-/// Folds samples into one block of plain numbers: the header, then mean and sum of squared deviations of each
-/// channel (B. P. Welford, *Technometrics* 4(3), 1962).
+/// Numbers of each channel in a block that is still open: mean, sum of squared deviations from it, sum of squared
+/// differences within pairs, first value of a pair.
+const OPEN: usize = 4;
+
+/// Numbers of each channel in the complete blocks: the first three of these.
+const CLOSED: usize = 3;
+
+/// Folds a sample into an open block (B. P. Welford, *Technometrics* 4(3), 1962).
 #[inline]
 pub(crate) fn add_sample(block: &mut [f64], sample: &[f64]) {
+    let second = block[0] % 2.0 == 1.0;
     let count = block[0] + 1.0;
     block[0] = count;
     let inverse = 1.0 / count;
     let mut largest = 0.0f64;
-    for (moments, &x) in block[HEADER..].chunks_exact_mut(2).zip(sample) {
+    for (moments, &x) in block[HEADER..].chunks_exact_mut(OPEN).zip(sample) {
         let deviation = x - moments[0];
         moments[0] += deviation * inverse;
         moments[1] += deviation * (x - moments[0]);
+        if second {
+            moments[2] += (x - moments[3]) * (x - moments[3]);
+        }
+        moments[3] = x;
         largest = largest.max(x.abs());
     }
     if largest > 0.0 {
@@ -53,21 +64,19 @@ pub(crate) fn add_sample(block: &mut [f64], sample: &[f64]) {
     }
 }
 
-/// Appends one block to another (T. Chan, G. Golub, R. LeVeque, *Updating Formulae and a Pairwise Algorithm for
-/// Computing Sample Variances*, STAN-CS-79-773, 1979).
-pub(crate) fn merge_block(into: &mut [f64], from: &[f64]) {
+/// Appends a complete block to those before it (T. Chan, G. Golub, R. LeVeque, *Updating Formulae and a Pairwise
+/// Algorithm for Computing Sample Variances*, STAN-CS-79-773, 1979).
+fn close_block(into: &mut [f64], from: &[f64]) {
     let (n, m) = (into[0], from[0]);
-    if m == 0.0 {
-        return;
-    }
     let total = n + m;
     into[0] = total;
     into[1] += from[1];
     into[2] = into[2].max(from[2]);
-    for (a, b) in into[HEADER..].chunks_exact_mut(2).zip(from[HEADER..].chunks_exact(2)) {
+    for (a, b) in into[HEADER..].chunks_exact_mut(CLOSED).zip(from[HEADER..].chunks_exact(OPEN)) {
         let difference = b[0] - a[0];
         a[0] += difference * (m / total);
         a[1] += b[1] + difference * difference * (n * m / total);
+        a[2] += b[2];
     }
 }
 
@@ -119,9 +128,9 @@ impl Frame {
     /// Makes room for an observation, unless there is already; it must have passed [`check`](Self::check).
     pub(crate) fn prepare(&mut self, shape: FrameShape, channels: Vec<String>, fingerprint: &str) {
         if self.is_empty() {
-            let size = shape.pixels() * (HEADER + 2 * channels.len());
+            let room = |numbers: usize| vec![0.0; shape.pixels() * (HEADER + numbers * channels.len())];
+            (self.closed, self.open) = (room(CLOSED), room(OPEN));
             (self.shape, self.channels, self.fingerprint) = (shape, channels, fingerprint.to_owned());
-            (self.closed, self.open) = (vec![0.0; size], vec![0.0; size]);
         }
     }
 
@@ -157,23 +166,24 @@ impl Frame {
         &self.channels
     }
 
-    pub(crate) fn stride(&self) -> usize {
-        HEADER + 2 * self.channels.len()
+    pub(crate) fn open_stride(&self) -> usize {
+        HEADER + OPEN * self.channels.len()
     }
 
-    fn range(&self, pixel: usize) -> std::ops::Range<usize> {
-        pixel * self.stride()..(pixel + 1) * self.stride()
+    /// The complete blocks of a pixel.
+    fn closed_blocks(&self, pixel: usize) -> &[f64] {
+        let stride = HEADER + CLOSED * self.channels.len();
+        &self.closed[pixel * stride..(pixel + 1) * stride]
     }
 
     /// The block of a pixel that is still open.
     pub(crate) fn open_block(&self, pixel: usize) -> &[f64] {
-        &self.open[self.range(pixel)]
+        &self.open[pixel * self.open_stride()..(pixel + 1) * self.open_stride()]
     }
 
     /// A frame of the same shape without samples.
     pub(crate) fn emptied(&self) -> Self {
-        let zeros = vec![0.0; self.closed.len()];
-        Self { closed: zeros.clone(), open: zeros, ..self.clone() }
+        Self { closed: vec![0.0; self.closed.len()], open: vec![0.0; self.open.len()], ..self.clone() }
     }
 
     /// A copy that has the open blocks only.
@@ -191,20 +201,14 @@ impl Frame {
 
     /// Takes the next block of a pixel: the open one carried on, or a new one.
     pub(crate) fn put_block(&mut self, pixel: usize, block: &[f64]) {
-        let range = self.range(pixel);
+        let (open, closed) = (self.open_stride(), HEADER + CLOSED * self.channels.len());
+        let place = &mut self.open[pixel * open..(pixel + 1) * open];
         if block[0] >= BLOCK as f64 {
-            merge_block(&mut self.closed[range.clone()], block);
-            self.open[range].fill(0.0);
+            close_block(&mut self.closed[pixel * closed..(pixel + 1) * closed], block);
+            place.fill(0.0);
         } else {
-            self.open[range].copy_from_slice(block);
+            place.copy_from_slice(block);
         }
-    }
-
-    /// All samples of a pixel as one block.
-    pub(crate) fn pixel_block(&self, pixel: usize) -> Vec<f64> {
-        let mut block = self.closed[self.range(pixel)].to_vec();
-        merge_block(&mut block, self.open_block(pixel));
-        block
     }
 
     /// Samples of a pixel; none before the first observation.
@@ -212,28 +216,45 @@ impl Frame {
         if self.is_empty() {
             return 0;
         }
-        let start = self.range(pixel).start;
-        self.closed[start] as u64 + self.open[start] as u64
+        self.closed_blocks(pixel)[0] as u64 + self.open_block(pixel)[0] as u64
     }
 
     /// Samples of a pixel that were not zero in every channel.
     pub fn contributing(&self, pixel: usize) -> u64 {
-        let start = self.range(pixel).start;
-        self.closed[start + 1] as u64 + self.open[start + 1] as u64
+        self.closed_blocks(pixel)[1] as u64 + self.open_block(pixel)[1] as u64
     }
 
     /// The largest absolute value of any sample of a pixel.
     pub fn largest(&self, pixel: usize) -> f64 {
-        let start = self.range(pixel).start;
-        self.closed[start + 2].max(self.open[start + 2])
+        self.closed_blocks(pixel)[2].max(self.open_block(pixel)[2])
     }
 
     /// Mean and standard error of a pixel in a channel. One sample has an infinite error.
+    ///
+    /// The samples of a complete block are stratified: two lie in each part of the pixel, and their difference tells
+    /// the variance there (W. G. Cochran, *Sampling Techniques*, § 5A.12). The variance that they would have without
+    /// strata, which is larger or the same, is averaged in as if it were that of one more pair: a few pairs that
+    /// happen to be equal do not make an error of zero. Samples of a block that is not yet complete count as
+    /// independent ones of the whole pixel, which is never too small either.
     pub fn pixel(&self, pixel: usize, channel: usize) -> Estimate {
-        let block = self.pixel_block(pixel);
-        let (n, mean, squares) = (block[0], block[HEADER + 2 * channel], block[HEADER + 2 * channel + 1]);
-        let error = if n < 2.0 { f64::INFINITY } else { (squares / (n - 1.0) / n).sqrt() };
-        Estimate { value: mean, error }
+        let (closed, open) = (self.closed_blocks(pixel), self.open_block(pixel));
+        let (n, rest) = (closed[0], open[0]);
+        let (at, rest_at) = (HEADER + CLOSED * channel, HEADER + OPEN * channel);
+        let (mean, squares, pairs) = (closed[at], closed[at + 1], closed[at + 2]);
+        let (rest_mean, rest_squares) = (open[rest_at], open[rest_at + 1]);
+        if n == 0.0 {
+            let error = if rest < 2.0 { f64::INFINITY } else { (rest_squares / (rest - 1.0) / rest).sqrt() };
+            return Estimate { value: rest_mean, error };
+        }
+        let variance = (0.5 * n * pairs + squares * (n / (n - 1.0))) / (0.5 * n + 1.0);
+        // Squares about a mean of n samples that are independent of them are too large by 1 + 1/n.
+        let difference = rest_mean - mean;
+        let rest_variance = (rest_squares + rest * difference * difference) * (n / (n + 1.0));
+        let total = n + rest;
+        Estimate {
+            value: mean + difference * (rest / total),
+            error: (variance + rest_variance).sqrt() / total,
+        }
     }
 
     fn each(&self, of: impl Fn(Estimate) -> f64) -> Vec<f64> {
@@ -253,7 +274,8 @@ impl Frame {
         self.each(|e| e.error)
     }
 
-    /// The unbiased variances of the samples, \[row, column, channel\]; infinite for fewer than two samples.
+    /// Squared standard error times number of samples, \[row, column, channel\]: the variance of independent samples
+    /// that would do as well; infinite for fewer than two samples.
     pub fn variance(&self) -> Vec<f64> {
         let channels = self.channels.len();
         let scale = |p: usize| self.samples(p) as f64;
@@ -290,29 +312,110 @@ mod tests {
     use super::*;
     use raysect_math::{Rng, Statistics};
 
-    #[test]
-    fn blocks_add_up_to_the_plain_statistics() {
-        let mut rng = Rng::new(8);
-        let shape = FrameShape::Image { columns: 2, rows: 1 };
+    /// A frame of one pixel with these samples.
+    fn frame_of(samples: &[f64]) -> Frame {
         let mut frame = Frame::new("test", "1");
-        frame.prepare(shape, vec!["a".into(), "b".into()], "x");
-        let mut plain = Statistics::new();
-        let mut block = vec![0.0; frame.stride()];
-        for _ in 0..1000 {
-            let x = rng.normal(1e3, 1.0);
-            plain.add(x);
+        frame.prepare(FrameShape::Single, vec!["a".into(), "dark".into()], "x");
+        let mut block = vec![0.0; frame.open_stride()];
+        for (number, &x) in samples.iter().enumerate() {
             add_sample(&mut block, &[x, 0.0]);
-            if block[0] >= BLOCK as f64 {
-                frame.put_block(1, &block);
+            if (number as u64 + 1).is_multiple_of(BLOCK) {
+                frame.put_block(0, &block);
                 block.fill(0.0);
             }
         }
-        frame.put_block(1, &block);
-        let (mean, error) = (frame.pixel(1, 0).value, frame.pixel(1, 0).error);
-        assert!((mean / plain.mean() - 1.0).abs() < 1e-14 && (error / plain.error() - 1.0).abs() < 1e-10);
-        assert_eq!((frame.samples(1), frame.samples(0), frame.contributing(1)), (1000, 0, 1000));
-        assert_eq!(frame.pixel(1, 1), Estimate { value: 0.0, error: 0.0 });
-        assert_eq!(frame.pixel(0, 0).error, f64::INFINITY);
+        if !(samples.len() as u64).is_multiple_of(BLOCK) {
+            frame.put_block(0, &block);
+        }
+        frame
+    }
+
+    /// The standard error, written down once more: pairs of complete blocks, deviations of the rest.
+    fn expected_error(samples: &[f64]) -> f64 {
+        let n = samples.len();
+        let whole = n / BLOCK as usize * BLOCK as usize;
+        let mean = samples[..whole].iter().sum::<f64>() / whole as f64;
+        let squares = |of: &[f64]| of.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
+        let pairs: f64 = samples[..whole].chunks(2).map(|p| (p[0] - p[1]).powi(2)).sum();
+        let count = whole as f64;
+        let within =
+            (count / 2.0 * pairs + squares(&samples[..whole]) * count / (count - 1.0)) / (count / 2.0 + 1.0);
+        (within + squares(&samples[whole..]) * count / (count + 1.0)).sqrt() / n as f64
+    }
+
+    #[test]
+    fn fewer_samples_than_a_block_have_the_plain_statistics() {
+        let mut rng = Rng::new(8);
+        let samples: Vec<f64> = (1..BLOCK).map(|_| rng.normal(1e3, 1.0)).collect();
+        let mut plain = Statistics::new();
+        samples.iter().for_each(|x| plain.add(*x));
+        let found = frame_of(&samples).pixel(0, 0);
+        assert!((found.value / plain.mean() - 1.0).abs() < 1e-14);
+        assert!((found.error / plain.error() - 1.0).abs() < 1e-10);
+        assert_eq!(frame_of(&samples[..1]).pixel(0, 0).error, f64::INFINITY);
+        assert_eq!(frame_of(&[]).pixel(0, 0).error, f64::INFINITY);
+    }
+
+    #[test]
+    fn complete_blocks_are_judged_by_their_pairs() {
+        let mut rng = Rng::new(9);
+        let samples: Vec<f64> = (0..1000).map(|_| rng.normal(1e3, 1.0)).collect();
+        for count in [BLOCK as usize, BLOCK as usize + 1, 5 * BLOCK as usize, 1000] {
+            let (frame, part) = (frame_of(&samples[..count]), &samples[..count]);
+            let found = frame.pixel(0, 0);
+            let mean = part.iter().sum::<f64>() / count as f64;
+            assert!((found.value / mean - 1.0).abs() < 1e-14, "{count}");
+            assert!((found.error / expected_error(part) - 1.0).abs() < 1e-9, "{count}: {}", found.error);
+            assert_eq!((frame.samples(0), frame.contributing(0)), (count as u64, count as u64));
+            assert_eq!(frame.pixel(0, 1), Estimate { value: 0.0, error: 0.0 });
+        }
+    }
+
+    /// Mean square of the differences from the truth, and of the errors, of many averages of a pixel that is bright
+    /// on one side of an edge.
+    fn edge(count: u64, stratified: bool) -> (f64, f64) {
+        let (mut differences, mut errors) = (0.0, 0.0);
+        for seed in 0..4000 {
+            let mut strata = crate::strata::Strata::default();
+            let samples: Vec<f64> = (0..count)
+                .map(|s| {
+                    let rng = Rng::new(seed * count + s);
+                    let mut rng = if stratified { rng.confined_to(strata.of(seed, 0, 0, s)) } else { rng };
+                    let (x, y) = (rng.uniform(), rng.uniform());
+                    f64::from(0.7 * x + y < 0.8)
+                })
+                .collect();
+            let found = frame_of(&samples).pixel(0, 0);
+            // The area below a line of slope −0.7 from (0, 0.8) to (1, 0.1).
+            differences += (found.value - 0.45).powi(2) / 4000.0;
+            errors += found.error * found.error / 4000.0;
+        }
+        (differences, errors)
+    }
+
+    #[test]
+    fn equal_pairs_do_not_make_an_error_of_zero() {
+        let samples: Vec<f64> = (0..BLOCK).map(|s| if s / 2 == 5 { 10.0 } else { 0.0 }).collect();
+        let found = frame_of(&samples).pixel(0, 0);
+        assert!(found.error > 0.1 * found.value, "{found:?}");
+        assert_eq!(frame_of(&[3.0; BLOCK as usize]).pixel(0, 0), Estimate { value: 3.0, error: 0.0 });
+    }
+
+    #[test]
+    fn strata_reduce_the_error_and_the_error_bar_knows() {
+        for blocks in [1, 4, 16] {
+            let count = blocks * BLOCK;
+            let (plain, _) = edge(count, false);
+            let (differences, errors) = edge(count, true);
+            assert!((plain * count as f64 / (0.45 * 0.55) - 1.0).abs() < 0.1);
+            assert!(differences < 0.4 * plain, "{differences} {plain}");
+            let pairs = count as f64 / 2.0;
+            let expected = (pairs * differences + plain) / (pairs + 1.0);
+            assert!((errors / expected - 1.0).abs() < 0.1, "{errors} {expected}");
+        }
+        // Where the last block is not complete the error bar may be too long, but never too short.
+        let (differences, errors) = edge(2 * BLOCK + BLOCK / 2, true);
+        assert!(errors > 0.95 * differences, "{errors} {differences}");
     }
 
     #[test]

@@ -66,6 +66,7 @@ mod progress;
 mod report;
 mod sensor;
 mod stop;
+mod strata;
 pub mod testing;
 
 pub use error::ObserverError;

@@ -3,12 +3,13 @@
 use std::ops::{ControlFlow, Range};
 
 use raysect_core::Ray;
-use raysect_math::{Rng, StreamKey};
+use raysect_math::{Rng, Stratum, StreamKey};
 use raysect_optical::{LEDGER_NUMBERS, Ledger, Path};
 
 use super::Session;
 use crate::frame::{BLOCK, add_sample};
 use crate::sensor::radiance_weight;
+use crate::strata::Strata;
 use crate::{Frame, Measurement, ObserverError, Pipeline, Sensor};
 
 /// Consecutive samples of one pixel.
@@ -86,7 +87,7 @@ impl<'a, S: Sensor> Session<'a, S> {
         limit: u64,
     ) -> Result<u64, ObserverError> {
         let items = Items::new(&frames[0], count, limit, self.engine.workers(), self.slices.len());
-        let strides: Vec<usize> = frames.iter().map(Frame::stride).collect();
+        let strides: Vec<usize> = frames.iter().map(Frame::open_stride).collect();
         let (mut ledger, mut invalid, mut samples, mut cancelled) = (Ledger::default(), 0, 0, false);
         let mut meter = std::mem::replace(&mut self.meter, crate::progress::Meter::new(0, true, None));
         let before: Vec<Frame> = frames.iter().map(Frame::open_part).collect();
@@ -140,8 +141,8 @@ impl<S: Sensor> Shared<'_, '_, S> {
         let widest = session.slices.iter().map(|s| s.bins).max().unwrap_or(0);
         let mut weighted = vec![0.0; widest];
         let mut samples: Vec<Vec<f64>> = self.frames.iter().map(|f| vec![0.0; f.channels().len()]).collect();
-        let mut blocks: Vec<Vec<f64>> = self.frames.iter().map(|f| vec![0.0; f.stride()]).collect();
-        let (mut out, mut invalid) = (Vec::new(), 0.0);
+        let mut blocks: Vec<Vec<f64>> = self.frames.iter().map(|f| vec![0.0; f.open_stride()]).collect();
+        let (mut out, mut invalid, mut strata) = (Vec::new(), 0.0, Strata::default());
         for task in tasks {
             for (block, frame) in blocks.iter_mut().zip(self.frames) {
                 block.copy_from_slice(frame.open_block(task.pixel));
@@ -150,7 +151,8 @@ impl<S: Sensor> Shared<'_, '_, S> {
                 }
             }
             for number in task.first..task.first + task.count {
-                self.sample(task.pixel, number, &mut paths, &mut weighted, &mut samples);
+                let stratum = strata.of(session.observer.seed_value(), self.lane, task.pixel, number);
+                self.sample(task.pixel, number, stratum, &mut paths, &mut weighted, &mut samples);
                 for (block, sample) in blocks.iter_mut().zip(&mut samples) {
                     if sample.iter().any(|x| !x.is_finite()) {
                         sample.fill(0.0);
@@ -181,6 +183,7 @@ impl<S: Sensor> Shared<'_, '_, S> {
         &self,
         pixel: usize,
         number: u64,
+        stratum: Stratum,
         paths: &mut [Path<'_>],
         weighted: &mut [f64],
         samples: &mut [Vec<f64>],
@@ -195,7 +198,9 @@ impl<S: Sensor> Shared<'_, '_, S> {
                 slice: slice.index as u64,
                 pixel: pixel as u64,
                 sample: number,
-            });
+            })
+            .confined_to(stratum);
+            // The numbers of the sensor come first; they alone are stratified.
             let ray = sensor.sample_ray(pixel, &mut rng);
             let weight = radiance_weight(sensor, pixel, &ray);
             let ray = Ray {
