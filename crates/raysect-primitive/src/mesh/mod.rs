@@ -2,6 +2,9 @@
 
 mod data;
 mod error;
+mod health;
+mod weld;
 
 pub use data::MeshData;
 pub use error::MeshError;
+pub use health::MeshHealth;
