@@ -1,8 +1,9 @@
-//! Triangle meshes: their data and their state of health.
+//! Triangle meshes: their data, their state of health and their files.
 
 mod data;
 mod error;
 mod health;
+pub mod io;
 mod weld;
 
 pub use data::MeshData;
