@@ -1,6 +1,8 @@
 use raysect_math::MathError;
 use thiserror::Error;
 
+use crate::mesh::MeshError;
+
 /// Why a shape cannot be made.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -23,4 +25,7 @@ pub enum PrimitiveError {
         /// What is wrong.
         what: &'static str,
     },
+    /// A mesh or its file is wrong.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
 }

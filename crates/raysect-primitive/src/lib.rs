@@ -22,8 +22,10 @@
 
 mod cuboid;
 mod error;
+pub mod mesh;
 mod sphere;
 
 pub use cuboid::Cuboid;
 pub use error::PrimitiveError;
+pub use mesh::{MeshData, MeshError, MeshHealth};
 pub use sphere::Sphere;

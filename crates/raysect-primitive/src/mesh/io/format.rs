@@ -1,0 +1,66 @@
+use std::path::Path;
+
+use super::super::{MeshData, MeshError};
+use super::fault::Fault;
+use super::{obj, read_bytes, stl};
+
+/// A format of mesh files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum MeshFormat {
+    /// Wavefront OBJ.
+    Obj,
+    /// STL of a stereolithograph, text or binary.
+    Stl,
+}
+
+/// How a file holds its numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum MeshEncoding {
+    /// As decimal digits, which give back every coordinate exactly.
+    Ascii,
+    /// As bytes.
+    Binary,
+}
+
+impl MeshFormat {
+    /// The format that a name ends in, in capitals or not.
+    pub fn of_name(path: impl AsRef<Path>) -> Option<Self> {
+        let extension = path.as_ref().extension()?.to_str()?.to_ascii_lowercase();
+        match extension.as_str() {
+            "obj" => Some(Self::Obj),
+            "stl" => Some(Self::Stl),
+            _ => None,
+        }
+    }
+
+    fn parse(self, bytes: &[u8], scaling: f64) -> Result<MeshData, Fault> {
+        match self {
+            Self::Obj => obj::parse(bytes, scaling),
+            Self::Stl => stl::parse(bytes, scaling),
+        }
+    }
+}
+
+impl MeshData {
+    /// Reads the bytes of a file; coordinates are multiplied by `scaling` (0.001 for a file in mm).
+    ///
+    /// # Errors
+    /// Those of the format's own function; the path in them is `(bytes)`.
+    pub fn from_bytes(bytes: &[u8], format: MeshFormat, scaling: f64) -> Result<Self, MeshError> {
+        format.parse(bytes, scaling).map_err(|fault| fault.in_file(Path::new("(bytes)")))
+    }
+
+    /// Reads a file of any known format, told by its name or else by its first bytes; coordinates are multiplied by
+    /// `scaling` (0.001 for a file in mm).
+    ///
+    /// # Errors
+    /// [`MeshError::UnknownFormat`], and those of the format's own function.
+    pub fn load(path: impl AsRef<Path>, scaling: f64) -> Result<Self, MeshError> {
+        let path = path.as_ref();
+        let bytes = read_bytes(path)?;
+        let format = MeshFormat::of_name(path);
+        let format = format.ok_or_else(|| MeshError::UnknownFormat { path: path.to_owned() })?;
+        format.parse(&bytes, scaling).map_err(|fault| fault.in_file(path))
+    }
+}
