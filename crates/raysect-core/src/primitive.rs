@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D, Vector3D};
 
+use crate::accel::wide::TraversalStack;
 use crate::{BoundingBox3D, BoundingSphere3D, Interval, Ray};
 
 /// Names the leaf of a composite, the face of a leaf and the place on the face.
@@ -89,6 +90,7 @@ pub enum SurfaceSampling {
 #[derive(Debug, Default)]
 pub struct Scratch {
     pool: Vec<Vec<Crossing>>,
+    stack: TraversalStack,
 }
 
 impl Scratch {
@@ -97,6 +99,12 @@ impl Scratch {
         let mut list = self.pool.pop().unwrap_or_default();
         list.clear();
         list
+    }
+
+    /// The stack of a walk through a [`WideTree`](crate::accel::wide::WideTree).
+    #[inline]
+    pub fn stack(&mut self) -> &mut TraversalStack {
+        &mut self.stack
     }
 
     /// Takes a list back for later use.

@@ -2,6 +2,7 @@
 
 mod list;
 mod tree;
+pub mod wide;
 
 use std::fmt;
 use std::sync::Arc;

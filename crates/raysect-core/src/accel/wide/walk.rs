@@ -1,0 +1,102 @@
+use fearless_simd::{Simd, f32x8, prelude::*};
+
+use super::{Child, TreeRay, WIDTH, WideTree};
+
+/// What is to be done in the leaves that a ray meets.
+pub trait LeafTest<S: Simd> {
+    /// Tests the items of a leaf; answers with the limit beyond which nothing is wanted any more, as
+    /// [`TreeRay::limit`] counts it; negative infinity ends the walk.
+    fn leaf(&mut self, simd: S, leaf: u32, limit: f32) -> f32;
+}
+
+/// Deepest stack of a walk: 40 levels split by the heuristic and 31 halved, each leaving seven behind.
+const STACK: usize = 512;
+
+/// Room for one walk, reused.
+#[derive(Debug, Default)]
+pub struct TraversalStack(Vec<(Child, f32)>);
+
+/// A ray in every lane.
+struct Lanes<S: Simd> {
+    inverse: [f32x8<S>; 3],
+    near: [f32x8<S>; 3],
+    far: [f32x8<S>; 3],
+    min: f32x8<S>,
+}
+
+impl WideTree {
+    /// Shows `test` every leaf that may hold what a ray meets, nearer ones first as far as their boxes tell.
+    #[inline(always)]
+    pub fn walk<S: Simd, T: LeafTest<S>>(
+        &self,
+        simd: S,
+        ray: &TreeRay,
+        mut limit: f32,
+        stack: &mut TraversalStack,
+        test: &mut T,
+    ) {
+        let each = |v: [f32; 3]| [0, 1, 2].map(|a| f32x8::splat(simd, v[a]));
+        let lanes = Lanes {
+            inverse: each(ray.inverse),
+            near: each(ray.near),
+            far: each(ray.far),
+            min: f32x8::splat(simd, ray.min),
+        };
+        if stack.0.is_empty() {
+            stack.0.resize(STACK, (Child::NONE, 0.0));
+        }
+        let stack = &mut stack.0[..];
+        let mut height = 0;
+        let mut child = self.root;
+        'next: loop {
+            if let Some(leaf) = child.as_leaf() {
+                limit = test.leaf(simd, leaf, limit);
+            } else if let Some(node) = self.nodes.get(child.0 as usize) {
+                // The boxes of all children at once; NaN does not occur, since every inverse is finite.
+                let (mut first, mut last) = (lanes.min, f32x8::splat(simd, limit));
+                for a in 0..3 {
+                    let plane = |far: bool| {
+                        f32x8::from_slice(simd, &node.planes[usize::from(ray.backward[a] != far)][a])
+                    };
+                    first = first.max(plane(false) * lanes.inverse[a] + lanes.near[a]);
+                    last = last.min(plane(true) * lanes.inverse[a] + lanes.far[a]);
+                }
+                let mut met = first.simd_le(last).to_bitmask();
+                if met != 0 {
+                    let first: [f32; WIDTH] = first.into();
+                    let base = height;
+                    let mut nearest = met.trailing_zeros() as usize % WIDTH;
+                    met &= met - 1;
+                    while met != 0 {
+                        let mut lane = met.trailing_zeros() as usize % WIDTH;
+                        met &= met - 1;
+                        if first[lane] < first[nearest] {
+                            std::mem::swap(&mut lane, &mut nearest);
+                        }
+                        // The others wait in order, the nearest on top.
+                        let mut at = height;
+                        while at > base && stack[at - 1].1 < first[lane] {
+                            stack[at] = stack[at - 1];
+                            at -= 1;
+                        }
+                        stack[at] = (node.children[lane], first[lane]);
+                        height += 1;
+                    }
+                    child = node.children[nearest];
+                    continue 'next;
+                }
+            }
+            loop {
+                if height == 0 {
+                    return;
+                }
+                height -= 1;
+                let (waiting, near) = stack[height];
+                if near <= limit {
+                    child = waiting;
+                    continue 'next;
+                }
+            }
+        }
+    }
+}
