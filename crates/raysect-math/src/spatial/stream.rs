@@ -18,7 +18,8 @@ impl<const N: usize> KdTree<N> {
     /// branch is its axis (`i32`), its plane (`f64`) and the index of its upper child (`i32`), the lower child being
     /// the next node. The boxes of the items are not written.
     ///
-    /// The stream should be buffered. More may precede and follow the tree.
+    /// The stream should be buffered. More may precede and follow the tree. A tree without items has its lower corner
+    /// at infinity and its upper at minus infinity; Raysect writes the same and does not read it.
     ///
     /// # Errors
     /// Those of the stream.
