@@ -27,5 +27,5 @@ mod sphere;
 
 pub use cuboid::Cuboid;
 pub use error::PrimitiveError;
-pub use mesh::{MeshData, MeshError, MeshHealth};
+pub use mesh::{Mesh, MeshBuilder, MeshData, MeshError, MeshHealth};
 pub use sphere::Sphere;

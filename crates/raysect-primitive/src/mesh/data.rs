@@ -2,6 +2,7 @@ use raysect_core::BoundingBox3D;
 use raysect_math::{AffineMatrix3D, MathError, Normal3D, Point3D, Vector3D};
 
 use super::MeshError;
+use rayon::prelude::*;
 
 /// Vertices, triangles and, optionally, vertex normals.
 ///
@@ -177,6 +178,20 @@ impl MeshData {
     /// The smallest box around all triangles [m]; vertices of no triangle do not count.
     pub fn bounding_box(&self) -> BoundingBox3D {
         BoundingBox3D::around(self.triangles.iter().flatten().map(|&v| self.vertices[v as usize]))
+    }
+
+    /// The box around each triangle [m].
+    pub(super) fn triangle_boxes(&self) -> Vec<BoundingBox3D> {
+        let of = |t: &[u32; 3]| BoundingBox3D::around(t.map(|v| self.vertices[v as usize]));
+        self.triangles.par_iter().with_min_len(4096).map(of).collect()
+    }
+
+    /// Bytes that vertices, triangles and normals take.
+    pub(super) fn bytes(&self) -> usize {
+        let normals = self.normals.as_ref();
+        size_of_val(self.vertices.as_slice())
+            + size_of_val(self.triangles.as_slice())
+            + normals.map_or(0, |n| size_of_val(n.normals.as_slice()) + size_of_val(n.indices.as_slice()))
     }
 
     /// Every coordinate multiplied by a positive factor: 0.001 makes metres of millimetres.

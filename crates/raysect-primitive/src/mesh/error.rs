@@ -19,6 +19,15 @@ pub enum MeshError {
         /// How many were given.
         count: usize,
     },
+    /// A triangle has no area.
+    #[error("triangle {triangle} (counted from 0) has no area, and the mesh is not to be tolerant")]
+    Degenerate {
+        /// The triangle, counted from 0.
+        triangle: usize,
+    },
+    /// The triangles close, but their fronts look inward.
+    #[error("the fronts of the triangles look inward: flip the normals, or say that the mesh is not closed")]
+    InsideOut,
     /// A triangle names a vertex that does not exist.
     #[error("triangle {triangle} names vertex {index}, there are {vertices} (counted from 0)")]
     VertexIndex {
