@@ -2,7 +2,7 @@ use std::path::Path;
 
 use super::super::{MeshData, MeshError};
 use super::fault::Fault;
-use super::{obj, read_bytes, stl};
+use super::{obj, ply, read_bytes, stl, vtk};
 
 /// A format of mesh files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -12,6 +12,10 @@ pub enum MeshFormat {
     Obj,
     /// STL of a stereolithograph, text or binary.
     Stl,
+    /// PLY of Stanford, text or binary.
+    Ply,
+    /// Legacy VTK, text or binary.
+    Vtk,
 }
 
 /// How a file holds its numbers.
@@ -30,6 +34,8 @@ impl MeshFormat {
         match extension.as_str() {
             "obj" => Some(Self::Obj),
             "stl" => Some(Self::Stl),
+            "ply" => Some(Self::Ply),
+            "vtk" => Some(Self::Vtk),
             _ => None,
         }
     }
@@ -38,6 +44,8 @@ impl MeshFormat {
         match self {
             Self::Obj => obj::parse(bytes, scaling),
             Self::Stl => stl::parse(bytes, scaling),
+            Self::Ply => ply::parse(bytes, scaling),
+            Self::Vtk => Ok(vtk::parse(bytes, scaling)?.0),
         }
     }
 }
