@@ -47,6 +47,28 @@ pub enum MathError {
         /// Shape of the other array.
         right: Vec<usize>,
     },
+    /// Two items of a tree have the same number.
+    #[error("two items have the id {id}: each needs its own")]
+    DuplicateItem {
+        /// The number.
+        id: u32,
+    },
+    /// The bytes of a stored tree are not those of a tree.
+    #[error("byte {offset} of the kd-tree: {reason}")]
+    KdTreeFormat {
+        /// Where the wrong field begins, in bytes from the beginning of the tree.
+        offset: u64,
+        /// What is wrong there.
+        reason: String,
+    },
+    /// A stream ends early or cannot be read.
+    #[error("reading failed at byte {offset} of the kd-tree: {kind}")]
+    KdTreeStream {
+        /// Where the field that cannot be read begins, in bytes from the beginning of the tree.
+        offset: u64,
+        /// What the stream says; `UnexpectedEof` if it ends.
+        kind: std::io::ErrorKind,
+    },
     /// A parameter lies outside its range.
     #[error("{name} = {value}{}{unit} is outside its range {range}", if unit.is_empty() { "" } else { " " })]
     OutOfRange {

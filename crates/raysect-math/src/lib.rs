@@ -9,6 +9,7 @@ mod point;
 mod quadrature;
 mod random;
 pub mod sampling;
+pub mod spatial;
 mod stats;
 mod transform;
 mod triple;

@@ -69,6 +69,13 @@ impl From<[f64; 3]> for Point3D {
     }
 }
 
+impl From<Point3D> for [f64; 3] {
+    #[inline]
+    fn from(p: Point3D) -> Self {
+        p.to_array()
+    }
+}
+
 impl From<glam::DVec3> for Point3D {
     #[inline]
     fn from(v: glam::DVec3) -> Self {
@@ -166,6 +173,13 @@ impl Point2D {
     #[inline]
     pub fn distance_to(self, other: Self) -> f64 {
         self.vector_to(other).length()
+    }
+}
+
+impl From<Point2D> for [f64; 2] {
+    #[inline]
+    fn from(p: Point2D) -> Self {
+        [p.x, p.y]
     }
 }
 

@@ -131,6 +131,13 @@ macro_rules! direction_arithmetic {
                 Self::new(x, y, z)
             }
         }
+        impl From<$name> for [f64; 3] {
+            #[inline]
+            fn from(v: $name) -> Self {
+                v.to_array()
+            }
+        }
+
         impl From<glam::DVec3> for $name {
             #[inline]
             fn from(v: glam::DVec3) -> Self {

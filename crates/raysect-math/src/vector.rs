@@ -173,6 +173,13 @@ impl Vector2D {
     }
 }
 
+impl From<Vector2D> for [f64; 2] {
+    #[inline]
+    fn from(v: Vector2D) -> Self {
+        [v.x, v.y]
+    }
+}
+
 impl Add for Vector2D {
     type Output = Self;
     #[inline]
