@@ -15,6 +15,7 @@ mod format;
 mod obj;
 mod ply;
 mod polygons;
+mod rsm;
 mod split;
 mod stl;
 mod text;
@@ -30,6 +31,7 @@ use raysect_math::Point3D;
 pub use format::{MeshEncoding, MeshFormat};
 pub use obj::{export_obj, import_obj};
 pub use ply::{export_ply, import_ply};
+pub use rsm::{RsmFlags, export_rsm, import_rsm};
 pub use stl::{export_stl, import_stl};
 pub use vtk::{TriangleScalars, export_vtk, import_vtk, import_vtk_with_scalars};
 

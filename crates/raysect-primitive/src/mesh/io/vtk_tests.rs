@@ -190,7 +190,7 @@ fn faults_name_their_line() {
             format!("{body}POINT_DATA 1\nSCALARS a float\nLOOKUP_TABLE d\n1\n"),
             "values for 1 points, there are 4",
         ),
-        (format!("{body}CELL_DATA 2\nSCALARS a float\nLOOKUP_TABLE d\n1"), "the file ends where a value"),
+        (format!("{body}CELL_DATA 2\nSCALARS a float\nLOOKUP_TABLE d\n10"), "the file ends where a value"),
         (format!("{grid}{POINTS}CELLS 1 4\n3 0 1 2\nCELL_TYPES 2\n5 5\n"), "2 kinds of cells for 1 cells"),
         (format!("{grid}{POINTS}CELLS 1 4\n3 0 1 2\n"), "0 kinds of cells for 1 cells"),
         (
@@ -215,8 +215,8 @@ fn faults_name_their_line() {
         );
         assert!(read(&text).unwrap_err().contains("offset"), "{text}");
     }
-    let error = read(&binary(false)[..100]).unwrap_err();
-    assert!(error.contains("byte 9") && error.contains("the file ends at byte 100"), "{error}");
+    let error = read(&binary(false)[..120]).unwrap_err();
+    assert!(error.contains("byte 117: the file ends at byte 120"), "{error}");
 }
 
 #[test]
