@@ -270,6 +270,13 @@ impl MeshData {
         Ok((self, dropped))
     }
 
+    /// With every vertex at another, finite place.
+    pub(super) fn moved_to(mut self, vertices: Vec<Point3D>) -> Self {
+        debug_assert_eq!(vertices.len(), self.vertices.len());
+        self.vertices = vertices;
+        self
+    }
+
     /// Every triangle's vertices replaced by others, and these the only ones; for meshes that stay valid.
     pub(super) fn renumbered(mut self, vertices: Vec<Point3D>, names: &[u32]) -> Self {
         self.triangles.iter_mut().flatten().for_each(|v| *v = names[*v as usize]);

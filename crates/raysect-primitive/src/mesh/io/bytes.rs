@@ -64,10 +64,6 @@ impl<'a> Bytes<'a> {
         Ok(f64::from(f32::from_le_bytes(self.little(what)?)))
     }
 
-    pub(super) fn f64(&mut self, what: &str) -> Result<f64, Fault> {
-        Ok(f64::from_le_bytes(self.little(what)?))
-    }
-
     /// Three 32-bit numbers, finite.
     pub(super) fn triple_f32(&mut self, what: &str) -> Result<[f64; 3], Fault> {
         let at = self.at;

@@ -13,18 +13,27 @@ mod bytes;
 mod fault;
 mod format;
 mod obj;
+mod ply;
 mod polygons;
+mod rsm;
+mod split;
 mod stl;
 mod text;
 mod triangulate;
+mod vtk;
 
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
+use raysect_math::Point3D;
+
 pub use format::{MeshEncoding, MeshFormat};
 pub use obj::{export_obj, import_obj};
+pub use ply::{export_ply, import_ply};
+pub use rsm::{RsmFlags, export_rsm, import_rsm};
 pub use stl::{export_stl, import_stl};
+pub use vtk::{TriangleScalars, export_vtk, import_vtk, import_vtk_with_scalars};
 
 use self::fault::Fault;
 use super::MeshError;
@@ -48,4 +57,9 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>, MeshError> {
 
 fn write_file(path: &Path, bytes: &[u8]) -> Result<(), MeshError> {
     fs::write(path, bytes).map_err(|error| MeshError::io(path, &error))
+}
+
+/// True if 32-bit numbers hold every coordinate exactly.
+fn are_f32(vertices: &[Point3D]) -> bool {
+    vertices.iter().flat_map(|p| p.to_array()).all(|x| f64::from(x as f32) == x)
 }

@@ -22,6 +22,12 @@ pub(super) struct Polygons {
 /// No normal.
 const NONE: u32 = u32::MAX;
 
+/// A number as the index of a vertex.
+pub(super) fn index(value: f64) -> Result<u32, String> {
+    let index = value as u32;
+    if f64::from(index) == value && index != NONE { Ok(index) } else { Err(format!("{value} is no vertex")) }
+}
+
 /// A polygon.
 #[derive(Debug, Clone, Copy)]
 struct Outline {
@@ -59,6 +65,20 @@ impl Polygons {
     /// Ends the polygon that is being read; it came from this line or byte.
     pub(super) fn end_polygon(&mut self, place: usize) {
         self.outlines.push(Outline { place, end: self.corners.len() });
+    }
+
+    /// Adds the triangles of a strip, all with the sense of the first.
+    pub(super) fn strip(&mut self, corners: impl IntoIterator<Item = u32>, place: usize) {
+        let (mut before, mut is_even) = ([None; 2], true);
+        for c in corners {
+            if let [Some(a), Some(b)] = before {
+                let triangle = if is_even { [a, b, c] } else { [b, a, c] };
+                triangle.into_iter().for_each(|v| self.corner(v, None));
+                self.end_polygon(place);
+                is_even = !is_even;
+            }
+            before = [before[1], Some(c)];
+        }
     }
 
     /// How many polygons there are.

@@ -51,13 +51,17 @@ pub(super) fn parse(bytes: &[u8], scaling: f64) -> Result<MeshData, Fault> {
     Ok(mesh?.weld())
 }
 
+/// True if the file has the size that its count asks of a binary one.
+pub(super) fn has_size_of_count(bytes: &[u8]) -> bool {
+    let count = bytes.get(80..HEADER).and_then(|word| word.first_chunk()).copied().map(u32::from_le_bytes);
+    count.is_some_and(|n| bytes.len() as u64 == HEADER as u64 + RECORD as u64 * u64::from(n))
+}
+
 /// True unless the file is a text: its count agrees with its size, or it does not begin as a text does.
 fn is_binary(bytes: &[u8]) -> bool {
-    let count = bytes.get(80..HEADER).and_then(|word| word.first_chunk()).copied().map(u32::from_le_bytes);
-    let agrees = count.is_some_and(|n| bytes.len() as u64 == HEADER as u64 + RECORD as u64 * u64::from(n));
-    // A zero among the first bytes is no character: a binary file of wrong size.
     let begins_as_text = Text::new(bytes).word().is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
-    agrees || !begins_as_text || bytes.iter().take(HEADER).any(|&b| b == 0)
+    // A zero among the first bytes is no character: a binary file of wrong size.
+    has_size_of_count(bytes) || !begins_as_text || bytes.iter().take(HEADER).any(|&b| b == 0)
 }
 
 fn parse_binary(bytes: &[u8], scaling: f64) -> Result<MeshData, Fault> {

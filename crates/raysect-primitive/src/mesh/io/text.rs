@@ -9,12 +9,14 @@ pub(super) struct Text<'a> {
     line: usize,
     /// Line of the word or line that was read last.
     last: usize,
+    /// Position of the word or line that was read last.
+    start: usize,
 }
 
 impl<'a> Text<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         let at = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
-        Self { bytes, at, line: 1, last: 1 }
+        Self { bytes, at, line: 1, last: 1, start: at }
     }
 
     /// Position of what comes next.
@@ -22,7 +24,7 @@ impl<'a> Text<'a> {
         self.at
     }
 
-    /// Goes on at a later position of the same line structure, as after binary data.
+    /// Goes on at a later position, after bytes that are no text. Lines are counted no more.
     pub(super) fn skip_to(&mut self, position: usize) {
         self.at = position.min(self.bytes.len());
     }
@@ -30,6 +32,11 @@ impl<'a> Text<'a> {
     /// Line of the word or line that was read last, counted from 1.
     pub(super) fn line_number(&self) -> usize {
         self.last
+    }
+
+    /// Position of the word or line that was read last.
+    pub(super) fn start(&self) -> usize {
+        self.start
     }
 
     /// How many bytes are left.
@@ -48,7 +55,7 @@ impl<'a> Text<'a> {
         if rest.is_empty() {
             return None;
         }
-        self.last = self.line;
+        (self.last, self.start) = (self.line, self.at);
         let length = rest.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(rest.len());
         self.at += length;
         self.pass_line_end();
@@ -74,7 +81,7 @@ impl<'a> Text<'a> {
                 _ => break,
             }
         }
-        self.last = self.line;
+        (self.last, self.start) = (self.line, self.at);
         let rest = &self.bytes[self.at..];
         let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
         self.at += length;
@@ -103,12 +110,6 @@ impl<'a> Text<'a> {
     /// Three finite numbers.
     pub(super) fn triple(&mut self, what: &str) -> Result<[f64; 3], Fault> {
         Ok([self.number(what)?, self.number(what)?, self.number(what)?])
-    }
-
-    /// The next word as an integer that is not negative.
-    pub(super) fn count(&mut self, what: &str) -> Result<u64, Fault> {
-        let word = self.expect(what)?;
-        integer(word, what).map_err(|what| self.fault(what))
     }
 }
 
