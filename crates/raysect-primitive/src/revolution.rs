@@ -74,11 +74,12 @@ impl Passage {
             return self;
         }
         let t = missing / speed;
-        if speed > 0.0 && t > self.near {
-            (self.near, self.entry) = (t, face);
-        } else if speed < 0.0 && t < self.far {
-            (self.far, self.exit) = (t, face);
-        }
+        // Selections and no branches: which way lines run cannot be foretold.
+        let (first, last) = if speed > 0.0 { (t, f64::INFINITY) } else { (f64::NEG_INFINITY, t) };
+        self.entry = if first > self.near { face } else { self.entry };
+        self.near = if first > self.near { first } else { self.near };
+        self.exit = if last < self.far { face } else { self.exit };
+        self.far = if last < self.far { last } else { self.far };
         self
     }
 

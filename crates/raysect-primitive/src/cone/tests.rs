@@ -125,6 +125,11 @@ fn rays_that_start_again_leave_where_they_must() {
 }
 
 #[test]
+fn the_ends_of_the_admitted_sizes_work() {
+    judges::extremes_are_finite(&subject);
+}
+
+#[test]
 fn light_sampling_draws_what_it_says() {
     judges::light_sampling_is_right(&subject);
 }
