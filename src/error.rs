@@ -16,6 +16,9 @@ pub enum Error {
     /// A shape.
     #[error(transparent)]
     Primitive(#[from] crate::primitive::PrimitiveError),
+    /// A mesh or its file.
+    #[error(transparent)]
+    Mesh(#[from] crate::primitive::MeshError),
     /// A spectrum or a material.
     #[error(transparent)]
     Optical(#[from] crate::optical::OpticalError),

@@ -1,7 +1,7 @@
 //! Sets of rays for measurements of speed.
 
 use raysect::core::Ray;
-use raysect::prelude::*;
+use raysect::math::{Point3D, Rng, Vector3D};
 
 /// How rays follow each other.
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]

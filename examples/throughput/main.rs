@@ -8,10 +8,9 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Parser;
-use raysect::core::{Scene, Scratch, World};
-use raysect::prelude::*;
-use raysect::primitive::{Mesh, MeshData};
 use rays::Order;
+use raysect::core::{Ray, Scene, Scratch, World};
+use raysect::primitive::{Mesh, MeshData};
 
 /// Measures how fast rays find the nearest triangle of a mesh.
 #[derive(Parser)]
@@ -71,7 +70,8 @@ fn main() -> raysect::Result<()> {
     }
     let Some(mesh) = mesh else { return Ok(()) };
     let (triangles, bytes, build) = (mesh.data().triangle_count(), mesh.bytes(), median(builds));
-    let ball = mesh.data().bounding_box().enclosing_sphere();
+    let centre = mesh.data().bounding_box().centre();
+    let radius = mesh.data().vertices().iter().map(|p| p.distance_to(centre)).fold(0.0, f64::max);
     let mut world = World::<()>::new();
     world.add(mesh)?;
     let scene = world.scene()?;
@@ -88,7 +88,7 @@ fn main() -> raysect::Result<()> {
         if arguments.rays.is_some_and(|wanted| wanted != order) {
             continue;
         }
-        let rays = rays::rays(order, ball.centre, ball.radius, arguments.count.max(1));
+        let rays = rays::rays(order, centre, radius, arguments.count.max(1));
         let rounds: Vec<(f64, f64)> =
             (0..arguments.rounds.max(1)).map(|_| measure(scene, &rays, arguments.threads.max(1))).collect();
         let seconds = median(rounds.iter().map(|r| r.0).collect());

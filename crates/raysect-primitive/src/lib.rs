@@ -20,12 +20,24 @@
 //! A shape of your own implements [`Primitive`](raysect_core::Primitive); test it with
 //! [`check_primitive`](raysect_core::testing::check_primitive).
 
+mod cone;
 mod cuboid;
+mod cylinder;
 mod error;
 pub mod mesh;
+mod parabola;
+mod revolution;
 mod sphere;
 
+#[cfg(test)]
+mod double_double;
+#[cfg(test)]
+mod judges;
+
+pub use cone::Cone;
 pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
 pub use error::PrimitiveError;
 pub use mesh::{Mesh, MeshBuilder, MeshData, MeshError, MeshHealth};
+pub use parabola::Parabola;
 pub use sphere::Sphere;

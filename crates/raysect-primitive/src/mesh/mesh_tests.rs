@@ -2,7 +2,14 @@ use raysect_core::testing::check_primitive;
 use raysect_math::Rng;
 
 use super::*;
-use crate::mesh::testing::{cube, icosphere};
+
+fn cube(half: f64) -> MeshData {
+    MeshData::cube(half).unwrap()
+}
+
+fn icosphere(splits: u32, radius: f64) -> MeshData {
+    MeshData::icosphere(splits, radius).unwrap()
+}
 
 #[test]
 fn keeps_the_contract() {

@@ -9,8 +9,7 @@ pub mod io;
 #[allow(clippy::module_inception)]
 mod mesh;
 mod search;
-#[cfg(test)]
-pub(crate) mod testing;
+mod solids;
 mod triangle;
 mod weld;
 
