@@ -14,7 +14,8 @@ const FINEST: u32 = 12;
 
 fn check_length(what: &'static str, length: f64) -> Result<(), MeshError> {
     let admitted = length > 0.0 && length.is_finite();
-    Ok(MathError::check(admitted, length, what, "m", "greater than 0 and finite")?)
+    MathError::check(admitted, length, what, "m", "greater than 0 and finite")?;
+    Ok(())
 }
 
 impl MeshData {
