@@ -20,8 +20,9 @@ pub const LEAF_ITEMS: usize = 4;
 /// Stands where a leaf has no more items.
 pub const NO_ITEM: u32 = u32::MAX;
 
-/// The boxes of the children of a node, axis by axis, and where they are.
+/// The boxes of the children of a node, axis by axis, and where they are; four lines of the cache.
 #[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
 struct WideNode {
     /// Lower and upper coordinates in the frame of the tree.
     planes: [[[f32; WIDTH]; 3]; 2],
