@@ -23,7 +23,9 @@
 mod cuboid;
 mod error;
 mod sphere;
+mod torus;
 
 pub use cuboid::Cuboid;
 pub use error::PrimitiveError;
 pub use sphere::Sphere;
+pub use torus::Torus;

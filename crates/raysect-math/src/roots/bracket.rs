@@ -20,7 +20,8 @@ impl Bracket {
     /// ```
     /// use raysect_math::Bracket;
     /// let bracket = Bracket { low: 0.0, high: 2.0, rising: true };
-    /// assert_eq!(bracket.newton(0.0, |x| (x * x - 2.0, 2.0 * x)), 2f64.sqrt());
+    /// let root = bracket.newton(0.0, |x| (x * x - 2.0, 2.0 * x));
+    /// assert!((root - 2f64.sqrt()).abs() < 1e-15);
     /// ```
     #[inline]
     pub fn newton(self, tolerance: f64, mut f: impl FnMut(f64) -> (f64, f64)) -> f64 {

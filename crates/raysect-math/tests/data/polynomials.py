@@ -176,4 +176,5 @@ def main():
         emit("special", coefficients)
 
 
-main()
+if __name__ == "__main__":
+    main()
