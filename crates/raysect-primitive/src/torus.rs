@@ -2,7 +2,7 @@ use raysect_core::{
     BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch, Surface,
 };
 use raysect_math::error_free::add_product;
-use raysect_math::{AffineMatrix3D, Bracket, MathError, Normal3D, Point3D, Vector3D, solve_cubic};
+use raysect_math::{AffineMatrix3D, Bracket, MathError, Normal3D, Point3D, Roots, Vector3D, solve_cubic};
 
 use crate::PrimitiveError;
 
@@ -51,6 +51,8 @@ struct Line {
 #[derive(Default)]
 struct Brackets {
     all: [Option<Bracket>; 4],
+    /// The places between which the depth is monotonic.
+    critical: Roots<3>,
 }
 
 impl Torus {
@@ -170,8 +172,8 @@ impl Torus {
         let (m, dz) = (line.miss.length(), line.direction.z);
         let p = (m - self.major) * (m + self.major) - self.minor * self.minor + 2.0 * squared * dz * dz;
         let q = 2.0 * squared * line.miss.z * dz;
-        let critical = solve_cubic(1.0, 0.0, p, q);
-        let within = critical.iter().copied().filter(|&s| s > first && s < last);
+        found.critical = solve_cubic(1.0, 0.0, p, q);
+        let within = found.critical.iter().copied().filter(|&s| s > first && s < last);
         let (mut low, mut outside, mut count) = (first, true, 0);
         for high in within {
             let out = self.depth(line.at(high)).0 > 0.0;
@@ -203,8 +205,37 @@ impl Torus {
         self.crossing_at(self.distance(line, root), bracket.rising)
     }
 
+    #[inline]
     fn crossing_at(&self, distance: f64, exiting: bool) -> Crossing {
         Crossing { distance, feature: Feature::default(), exiting }
+    }
+
+    /// Distance from the surface, negative inside.
+    fn height(&self, p: Vector3D) -> f64 {
+        let (depth, rho) = self.depth(p);
+        let across = rho - self.major;
+        depth / ((across * across + p.z * p.z).sqrt() + self.minor)
+    }
+
+    /// True if a line stays on the surface, as far as rounding can tell, from where it leaves to the start of a
+    /// bracket: then the crossing in this bracket is the one that is being left.
+    ///
+    /// The line bends away from the surface by no more than the error of its origin, which is what is seen of it in
+    /// the height there and what the bound on the crossing means for the height.
+    fn clings(&self, line: &Line, left: &Departure, critical: &[f64], bracket: Bracket) -> bool {
+        let start = -(line.closest.0 + line.closest.1) / line.stretch;
+        let p = line.at(start);
+        let rho = (p.x * p.x + p.y * p.y).sqrt();
+        let (gradient, d) = (
+            Vector3D::new(p.x * (rho - self.major) / rho, p.y * (rho - self.major) / rho, p.z),
+            line.direction,
+        );
+        let cosine = gradient.dot(d).abs() / self.minor;
+        let error = 2.0 * self.height(p).abs()
+            + left.bound / (line.stretch * self.unit) * cosine
+            + 8.0 * f64::EPSILON * (self.major + self.minor);
+        let mut between = critical.iter().filter(|&&s| s > start && s <= bracket.low);
+        between.all(|&s| self.height(line.at(s)).abs() <= error)
     }
 
     /// Distance along the ray of a place on its line.
@@ -276,33 +307,29 @@ impl Primitive for Torus {
         first.filter(|c| c.distance <= within.max)
     }
 
-    /// Who goes inward leaves next, who goes outward enters next, even if the line through the rounded origin runs
-    /// past the torus or does not come out of it there: such a chord is shorter than rounding, and the answer is 0.
+    /// Who goes inward leaves next, who goes outward enters next. If the line through the rounded origin is on the
+    /// wrong side there, it has still to pass the crossing that is being left; unless that has vanished: then it has
+    /// been left by less than rounding, and the answer is 0.
     fn hit_after(&self, ray: &Ray, left: &Departure, max_distance: f64, _: &mut Scratch) -> Option<Crossing> {
-        let here = self.crossing_at(0.0, left.inward);
-        let mut all = [here; 4];
-        let mut count = 0;
-        if let Some(line) = self.line(ray) {
-            for bracket in self.brackets(&line).iter() {
-                all[count] = self.crossing(&line, bracket);
-                count += 1;
+        let here = Some(self.crossing_at(0.0, left.inward));
+        let next = match self.line(ray) {
+            None => here.filter(|_| left.inward),
+            Some(line) => {
+                let brackets = self.brackets(&line);
+                let inside = |(index, _): &(usize, _)| index % 2 == 1;
+                let crossings = brackets.iter().map(|b| (b, self.crossing(&line, b)));
+                let mut ahead = crossings.enumerate().skip_while(|(_, (_, c))| c.distance <= 0.0).peekable();
+                let is_inside = ahead.peek().is_some_and(inside);
+                let first = ahead.next().map(|(_, c)| c);
+                if is_inside == left.inward {
+                    first.map(|(_, c)| c)
+                } else if first.is_some_and(|(b, _)| self.clings(&line, left, &brackets.critical, b)) {
+                    ahead.next().map(|(_, (_, c))| c)
+                } else {
+                    here
+                }
             }
-        }
-        let all = &all[..count];
-        // The one that is left: near-tangent rays displace it by more than the first-order bound.
-        let departed = (0..count)
-            .filter(|&i| all[i].exiting != left.inward && all[i].distance.abs() <= 4.0 * left.bound)
-            .min_by(|&a, &b| all[a].distance.abs().total_cmp(&all[b].distance.abs()));
-        let ahead = all.iter().position(|c| c.distance > 0.0).unwrap_or(count);
-        let next = match departed {
-            Some(index) => all.get(index + 1).copied(),
-            None => match all.get(ahead) {
-                Some(c) if c.exiting == left.inward => Some(*c),
-                None if !left.inward => None,
-                _ => Some(here),
-            },
         };
-        let next = next.map(|c| Crossing { distance: c.distance.max(0.0), ..c });
         next.filter(|c| c.distance <= max_distance)
     }
 
