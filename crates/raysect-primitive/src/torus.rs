@@ -217,23 +217,15 @@ impl Torus {
         depth / ((across * across + p.z * p.z).sqrt() + self.minor)
     }
 
-    /// True if a line stays on the surface, as far as rounding can tell, from where it leaves to the start of a
-    /// bracket: then the crossing in this bracket is the one that is being left.
+    /// True if a line, from where a ray leaves the surface to the start of a bracket, goes no farther from the surface
+    /// than it is: then the crossing in this bracket is the one that is being left.
     ///
-    /// The line bends away from the surface by no more than the error of its origin, which is what is seen of it in
-    /// the height there and what the bound on the crossing means for the height.
-    fn clings(&self, line: &Line, left: &Departure, critical: &[f64], bracket: Bracket) -> bool {
+    /// If the rounded origin lies on the wrong side, the way to that crossing leads towards the surface. Only where
+    /// the direction itself is along the surface to rounding can it go away from it first, by far less than that.
+    #[cold]
+    fn clings(&self, line: &Line, critical: &[f64], bracket: Bracket) -> bool {
         let start = -(line.closest.0 + line.closest.1) / line.stretch;
-        let p = line.at(start);
-        let rho = (p.x * p.x + p.y * p.y).sqrt();
-        let (gradient, d) = (
-            Vector3D::new(p.x * (rho - self.major) / rho, p.y * (rho - self.major) / rho, p.z),
-            line.direction,
-        );
-        let cosine = gradient.dot(d).abs() / self.minor;
-        let error = 2.0 * self.height(p).abs()
-            + left.bound / (line.stretch * self.unit) * cosine
-            + 8.0 * f64::EPSILON * (self.major + self.minor);
+        let error = 4.0 * self.height(line.at(start)).abs() + 16.0 * f64::EPSILON * (self.major + self.minor);
         let mut between = critical.iter().filter(|&&s| s > start && s <= bracket.low);
         between.all(|&s| self.height(line.at(s)).abs() <= error)
     }
@@ -323,7 +315,7 @@ impl Primitive for Torus {
                 let first = ahead.next().map(|(_, c)| c);
                 if is_inside == left.inward {
                     first.map(|(_, c)| c)
-                } else if first.is_some_and(|(b, _)| self.clings(&line, left, &brackets.critical, b)) {
+                } else if first.is_some_and(|(b, _)| self.clings(&line, &brackets.critical, b)) {
                     ahead.next().map(|(_, (_, c))| c)
                 } else {
                     here
