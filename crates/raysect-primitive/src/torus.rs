@@ -141,15 +141,15 @@ impl Primitive for Torus {
             None => here.filter(|_| left.inward),
             Some(line) => {
                 let brackets = self.tube.brackets(&line);
-                let inside = |(index, _): &(usize, _)| index % 2 == 1;
-                let crossings = brackets.iter().map(|b| (b, self.crossing(&line, b)));
-                let mut ahead = crossings.enumerate().skip_while(|(_, (_, c))| c.distance <= 0.0).peekable();
-                let is_inside = ahead.peek().is_some_and(inside);
-                let first = ahead.next().map(|(_, c)| c);
+                let unpassed = brackets.iter().filter(|b| line.distance(b.high) > 0.0);
+                let crossings = unpassed.map(|b| (b, self.crossing(&line, b)));
+                let mut ahead = crossings.skip_while(|(_, c)| c.distance <= 0.0);
+                let first = ahead.next();
+                let is_inside = first.is_some_and(|(b, _)| b.rising);
                 if is_inside == left.inward {
                     first.map(|(_, c)| c)
                 } else if first.is_some_and(|(b, _)| self.tube.clings(&line, &brackets, b)) {
-                    ahead.next().map(|(_, (_, c))| c)
+                    ahead.next().map(|(_, c)| c)
                 } else {
                     here
                 }

@@ -77,7 +77,7 @@ impl Tube {
         let squared = d.length_squared();
         let closest = -o.dot(d) / squared;
         let rough = o + d * closest;
-        let reach = (self.major + self.minor) * 1.000_001 + 8.0 * f64::EPSILON * o.max_abs();
+        let reach = (self.major + self.minor) * 1.000_001 + 16.0 * f64::EPSILON * o.max_abs();
         if rough.length_squared() > reach * reach {
             return None;
         }
