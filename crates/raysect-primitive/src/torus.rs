@@ -1,5 +1,6 @@
 use raysect_core::{
-    BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch, Surface,
+    BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch,
+    Surface, SurfaceSample, SurfaceSampling,
 };
 use raysect_math::error_free::add_product;
 use raysect_math::{AffineMatrix3D, Bracket, MathError, Normal3D, Point3D, Vector3D};
@@ -176,6 +177,32 @@ impl Primitive for Torus {
             shading_normal: normal,
             bound: 4.0 * f64::EPSILON * (self.major_radius + self.minor_radius),
         }
+    }
+
+    fn surface_sampling(&self) -> SurfaceSampling {
+        SurfaceSampling::Area
+    }
+
+    /// Uniform over the area; what faces away from `from` gives nothing.
+    fn sample_surface(&self, from: Point3D, u: [f64; 3]) -> Option<SurfaceSample> {
+        // The area about the tube grows as θ + (r/R) sin θ, of which a share is looked up (Kepler's equation).
+        let tau = std::f64::consts::TAU;
+        let ratio = self.minor_radius / self.major_radius;
+        let (phi, share) = (tau * u[0], tau * u[1]);
+        let bracket = Bracket { low: 0.0, high: tau, rising: true };
+        let theta = bracket.newton(0.0, |t| (t + ratio * t.sin() - share, 1.0 + ratio * t.cos()));
+        let (up, out) = theta.sin_cos();
+        let (sine, cosine) = phi.sin_cos();
+        let circle = self.major_radius + self.minor_radius * out;
+        let point = Point3D::new(circle * cosine, circle * sine, self.minor_radius * up);
+        let normal = Normal3D::new(out * cosine, out * sine, up);
+        let density = self.surface_density(from, point, Feature::default());
+        (density > 0.0).then_some(SurfaceSample { point, normal, feature: Feature::default(), density })
+    }
+
+    fn surface_density(&self, from: Point3D, point: Point3D, _: Feature) -> f64 {
+        let (gradient, to) = (self.tube.gradient(point), point.vector_to(from));
+        if gradient.dot(to) > 0.0 { 1.0 / self.surface_area() } else { 0.0 }
     }
 }
 

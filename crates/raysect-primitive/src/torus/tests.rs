@@ -238,3 +238,66 @@ fn contains_its_tube_only() {
         assert!(!torus.contains(p.into()), "{p:?}");
     }
 }
+
+/// Mean of a function over the surface by draws that cannot be refused, as each point faces one of two sides.
+#[test]
+fn draws_are_uniform_over_the_area() {
+    let torus = Torus::new(2.0, 1.5).unwrap();
+    let mut rng = Rng::new(8);
+    let (mut rings, draws) = ([0.0; 8], 80_000);
+    for _ in 0..draws {
+        let u = [0; 3].map(|_| rng.uniform());
+        // From far above and far below: what does not face the one faces the other.
+        let sides = [1e9, -1e9].map(|z| torus.sample_surface(Point3D::new(0.0, 0.0, z), u));
+        assert!(sides[0].is_some() != sides[1].is_some());
+        let s = sides.into_iter().flatten().next().unwrap();
+        assert_eq!(s.density, 1.0 / torus.surface_area());
+        let p = s.point;
+        let theta = p.z.atan2(p.x.hypot(p.y) - 2.0).rem_euclid(std::f64::consts::TAU);
+        rings[(theta / std::f64::consts::FRAC_PI_4) as usize] += 1.0;
+        let exact = point(&torus, p.y.atan2(p.x), theta);
+        assert!(p.distance_to(exact) < 1e-14 && s.normal.dot(Vector3D::new(p.x, p.y, p.z)) > -2.0);
+    }
+    for (i, found) in rings.into_iter().enumerate() {
+        let angle = |k: usize| k as f64 * std::f64::consts::FRAC_PI_4;
+        // The share of a ring between two angles about the tube.
+        let share = (angle(1) + 0.75 * (angle(i + 1).sin() - angle(i).sin())) / std::f64::consts::TAU;
+        let (mean, error) = (share * f64::from(draws), (share * (1.0 - share) * f64::from(draws)).sqrt());
+        assert!((found - mean).abs() < 4.0 * error, "ring {i}: {found}, expected {mean} ± {error}");
+    }
+}
+
+/// A torus that claims to choose points on both sides, or never chooses any.
+struct WrongLight(Torus, bool);
+
+impl Primitive for WrongLight {
+    fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
+        self.0.bounding_box(m)
+    }
+    fn contains(&self, point: Point3D) -> bool {
+        self.0.contains(point)
+    }
+    fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
+        self.0.crossings(ray, scratch, out);
+    }
+    fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
+        self.0.surface(ray, crossing)
+    }
+    fn surface_sampling(&self) -> SurfaceSampling {
+        SurfaceSampling::Area
+    }
+    fn sample_surface(&self, from: Point3D, u: [f64; 3]) -> Option<SurfaceSample> {
+        self.0.sample_surface(from, u).filter(|_| self.1)
+    }
+    fn surface_density(&self, _: Point3D, _: Point3D, _: Feature) -> f64 {
+        if self.1 { 1.0 / self.0.surface_area() } else { 0.0 }
+    }
+}
+
+#[test]
+fn the_contract_refuses_wrong_densities() {
+    for both_sides in [true, false] {
+        let outcome = check_primitive(&WrongLight(Torus::default(), both_sides), 100, 3);
+        assert!(outcome.is_err_and(|e| e.contains("sampling density")), "{both_sides}");
+    }
+}

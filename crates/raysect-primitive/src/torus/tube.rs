@@ -1,6 +1,6 @@
 use raysect_core::Ray;
 use raysect_math::error_free::add_product;
-use raysect_math::{Bracket, Vector3D};
+use raysect_math::{Bracket, Point3D, Vector3D};
 
 /// The radii of a torus in a unit of its own, and where lines cross it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,6 +129,14 @@ impl Tube {
         let rho = (p.x * p.x + p.y * p.y).sqrt();
         let across = rho - self.major;
         (across * across - (self.minor - p.z) * (self.minor + p.z), rho)
+    }
+
+    /// Outward from the circle in the middle through a point [m], in units of the tube.
+    pub(super) fn gradient(&self, point: Point3D) -> Vector3D {
+        let p = point.to_vector() * (1.0 / self.unit);
+        let rho = (p.x * p.x + p.y * p.y).sqrt();
+        let stretch = if rho > 0.0 { (rho - self.major) / rho } else { 0.0 };
+        Vector3D::new(p.x * stretch, p.y * stretch, p.z)
     }
 
     /// Distance from the surface, negative inside.
