@@ -1,5 +1,6 @@
 //! The world of optics: shapes with materials.
 
+use raysect_core::save::{SaveError, Saved, SceneObject, SceneWriter};
 use raysect_core::{Attachment, Instance, Node, NodeId, Primitive};
 
 use crate::illumination::Illumination;
@@ -23,6 +24,14 @@ impl Optics {
 impl std::fmt::Debug for Optics {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "Optics({})", self.0.facts().name)
+    }
+}
+
+impl SceneObject for Optics {
+    const ROLE: &'static str = "material";
+
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        self.material().save(writer)
     }
 }
 

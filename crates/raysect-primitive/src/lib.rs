@@ -22,8 +22,10 @@
 
 mod cuboid;
 mod error;
+mod register;
 mod sphere;
 
 pub use cuboid::Cuboid;
 pub use error::PrimitiveError;
+pub use register::register;
 pub use sphere::Sphere;

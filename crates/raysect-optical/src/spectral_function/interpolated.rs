@@ -1,5 +1,7 @@
 use std::path::Path;
 
+use raysect_core::save::{SaveError, Saved, SceneWriter};
+
 use super::SpectralFunction;
 use crate::OpticalError;
 use crate::library::table;
@@ -50,12 +52,17 @@ impl InterpolatedSf {
                 return wrong("wavelengths must ascend without repetition");
             }
         }
+        Ok(Self::of(wavelengths, values))
+    }
+
+    /// The integrals follow from wavelengths and values alone, whatever was done to get them.
+    fn of(wavelengths: Vec<f64>, values: Vec<f64>) -> Self {
         let mut integrals = vec![0.0; values.len()];
         for i in 1..values.len() {
             let width = wavelengths[i] - wavelengths[i - 1];
             integrals[i] = integrals[i - 1] + 0.5 * width * (values[i] + values[i - 1]);
         }
-        Ok(Self { wavelengths, values, integrals })
+        Self { wavelengths, values, integrals }
     }
 
     /// From a text file: two columns, wavelength [nm] and value, separated by a comma, semicolon or white space;
@@ -83,14 +90,14 @@ impl InterpolatedSf {
             let what = "its integral must be positive to be normalised";
             return Err(OpticalError::TableShape { wavelengths: n, values: n, what });
         }
-        self.values.iter_mut().chain(&mut self.integrals).for_each(|v| *v /= total);
-        Ok(self)
+        self.values.iter_mut().for_each(|v| *v /= total);
+        Ok(Self::of(self.wavelengths, self.values))
     }
 
     /// The same table with every value multiplied by a factor.
     pub fn scaled(mut self, factor: f64) -> Self {
-        self.values.iter_mut().chain(&mut self.integrals).for_each(|v| *v *= factor);
-        self
+        self.values.iter_mut().for_each(|v| *v *= factor);
+        Self::of(self.wavelengths, self.values)
     }
 
     /// The wavelengths [nm].
@@ -138,6 +145,11 @@ impl SpectralFunction for InterpolatedSf {
             return 0.5 * (max - min) * (self.evaluate(min) + self.evaluate(max));
         }
         self.primitive(max) - self.primitive(min)
+    }
+
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let saved = Saved::new("InterpolatedSf").numbers("wavelengths", &self.wavelengths);
+        Ok(saved.numbers("values", &self.values))
     }
 }
 
