@@ -5,7 +5,9 @@ use std::sync::Arc;
 use raysect::core::testing::Ball;
 use raysect::math::AffineMatrix3D;
 use raysect::prelude::*;
-use raysect::save::{MaterialRegistry, SaveError, Saved, SavedScene, SceneWriter, SpectralEntry, registry};
+use raysect::save::{
+    MaterialRegistry, Registry, SaveError, Saved, SavedScene, SceneWriter, SpectralEntry, registry,
+};
 use raysect::{core, optical};
 
 use crate::text_of;
@@ -85,11 +87,14 @@ fn one_line_of_the_registry_reads_a_type_of_the_users_own() {
     assert_eq!(text.matches("\"Sphere\"").count(), 1, "{text}");
 
     let mut registry = registry();
-    let message = SavedScene::from_json(&text, &registry).unwrap_err().to_string();
+    let refusal = |registry: &Registry| SavedScene::from_json(&text, registry).unwrap_err().to_string();
+    let message = refusal(&registry);
+    assert!(message.contains("no shape of the kind 'Shell'") && message.contains("Sphere"), "{message}");
+    registry.primitive("Shell", |entry| Ok(shell(entry.number("radius")?, entry.object("core")?)));
+    let message = refusal(&registry);
     assert!(message.contains("function of the kind 'Slope'") && message.contains("Sellmeier"), "{message}");
     registry.function("Slope", |entry| Ok(Slope(entry.number("rise")?)));
     registry.material("Glow", |entry| Ok(Glow(entry.function("spectrum")?)));
-    registry.primitive("Shell", |entry| Ok(shell(entry.number("radius")?, entry.object("core")?)));
     let read = SavedScene::from_json(&text, &registry).unwrap().world;
     assert_eq!(text_of(&read), text);
     assert_eq!(read.tree(), world.tree());

@@ -1,11 +1,12 @@
 //! Worlds of geometry alone as files.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use raysect_core::save::{Entry, MakeError, Registry, SaveError, SavedScene, SceneWriter};
+use raysect_core::save::{Entry, MakeError, Registry, SaveError, Saved, SavedScene, SceneWriter};
 use raysect_core::testing::Ball;
-use raysect_core::{Acceleration, Node, World};
-use raysect_math::{rotate, translate};
+use raysect_core::{Acceleration, BoundingBox3D, Crossing, Node, Primitive, Ray, Scratch, Surface, World};
+use raysect_math::{AffineMatrix3D, Point3D, rotate, translate};
 
 fn registry() -> Registry {
     let mut registry = Registry::new();
@@ -106,15 +107,37 @@ fn nothing_is_left_out_without_a_word() {
     );
 }
 
+/// A ball that counts how often it was saved.
+struct Counted(Ball, AtomicUsize);
+
+impl Primitive for Counted {
+    fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
+        self.0.bounding_box(m)
+    }
+    fn contains(&self, point: Point3D) -> bool {
+        self.0.contains(point)
+    }
+    fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
+        self.0.crossings(ray, scratch, out);
+    }
+    fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
+        self.0.surface(ray, crossing)
+    }
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        self.1.fetch_add(1, Ordering::Relaxed);
+        self.0.save(writer)
+    }
+}
+
 #[test]
 fn shapes_that_share_memory_are_looked_at_once() {
-    let shared = Arc::new(Ball::new(0.25));
+    let shared = Arc::new(Counted(Ball::new(0.25), AtomicUsize::new(0)));
     let mut world = World::<()>::new();
     for x in [0.0, 1.0] {
         world.add(Node::of(shared.clone(), ()).transform(translate(x, 0.0, 0.0))).unwrap();
     }
     let text = text_of(&world);
-    assert_eq!(text.matches("\"Ball\"").count(), 1);
+    assert_eq!((text.matches("\"Ball\"").count(), shared.1.load(Ordering::Relaxed)), (1, 1));
     let read = read(&text);
     let shapes: Vec<_> =
         read.primitives().iter().map(|&n| read.primitive(n).unwrap().unwrap().clone()).collect();
@@ -124,14 +147,14 @@ fn shapes_that_share_memory_are_looked_at_once() {
 
 #[test]
 fn writers_of_wrappers_cannot_add_to_what_is_shared() {
-    let shared: Arc<dyn raysect_core::Primitive> = Arc::new(Ball::new(0.25));
+    let shared: Arc<dyn Primitive> = Arc::new(Ball::new(0.25));
     let mut world = World::<()>::new();
     world.add(Node::of(shared.clone(), ())).unwrap();
     let mut writer = SceneWriter::new(&world).unwrap();
-    struct Wrapper(Arc<dyn raysect_core::Primitive>);
+    struct Wrapper(Arc<dyn Primitive>);
     impl raysect_core::save::SceneObject for Wrapper {
         const ROLE: &'static str = "shape";
-        fn save(&self, writer: &mut SceneWriter) -> Result<raysect_core::save::Saved, SaveError> {
+        fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
             Ok(writer.shared(&self.0, |ball, writer| ball.save(writer))?.number("more", 1.0))
         }
     }

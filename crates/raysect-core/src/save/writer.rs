@@ -20,7 +20,7 @@ pub struct SceneWriter {
     by_text: HashMap<Arc<str>, u64>,
     by_address: HashMap<usize, u64>,
     /// What addresses have been noted of: nothing else may come to lie there meanwhile.
-    alive: Vec<Box<dyn Any>>,
+    alive: Vec<Box<dyn Any + Send + Sync>>,
     nodes: Vec<String>,
     node_ids: HashMap<NodeId, u64>,
     settings: BTreeMap<String, String>,
@@ -93,7 +93,7 @@ impl SceneWriter {
     ///
     /// # Errors
     /// Those of `save`.
-    pub fn shared<T: ?Sized + 'static>(
+    pub fn shared<T: ?Sized + Send + Sync + 'static>(
         &mut self,
         object: &Arc<T>,
         save: impl FnOnce(&T, &mut Self) -> Result<Saved, SaveError>,

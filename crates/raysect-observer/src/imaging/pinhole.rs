@@ -40,7 +40,7 @@ impl Observer<Pinhole> {
     /// Of columns × rows of pixels, with a field of view [deg] across the larger number of them.
     ///
     /// # Errors
-    /// [`ObserverError::Math`] for no pixels, or a field of view outside 0 … 180 degrees.
+    /// [`ObserverError::Math`] for no pixels or 2³² and more, or a field of view outside 0 … 180 degrees.
     pub fn new(pixels: (usize, usize), field_of_view: f64) -> Result<Self, ObserverError> {
         let (columns, rows) = pixels;
         let admitted = field_of_view > 0.0 && field_of_view < 180.0;
@@ -91,8 +91,8 @@ impl Pinhole {
     fn of(columns: usize, rows: usize, pitch: f64) -> Result<Self, ObserverError> {
         MathError::check(columns >= 1, columns as f64, "pixels across", "", "1 or more")?;
         MathError::check(rows >= 1, rows as f64, "pixels down", "", "1 or more")?;
-        let (product, fits) = (columns as f64 * rows as f64, columns.checked_mul(rows).is_some());
-        MathError::check(fits, product, "pixels", "", "as many as can be counted")?;
+        let fits = columns.checked_mul(rows).is_some_and(|pixels| pixels <= u32::MAX as usize);
+        MathError::check(fits, columns as f64 * rows as f64, "pixels", "", "below 2³²")?;
         let admitted = pitch > 0.0 && pitch.is_finite();
         MathError::check(admitted, pitch, "width of a pixel at distance 1", "", "positive and finite")?;
         Ok(Self { columns, rows, pitch, etendue: Etendue::Unknown, cosine_weighted: false })
@@ -269,6 +269,8 @@ mod tests {
     #[test]
     fn impossible_cameras_are_refused() {
         assert!(PinholeCamera::new((0, 4), 45.0).is_err());
+        assert!(PinholeCamera::new((1 << 16, 1 << 16), 45.0).is_err());
+        assert!(PinholeCamera::new((usize::MAX, usize::MAX), 45.0).is_err());
         assert!(PinholeCamera::new((4, 4), 180.0).is_err());
         assert!(PinholeCamera::new((4, 4), f64::NAN).is_err());
         let camera = || PinholeCamera::new((2, 2), 45.0).unwrap();

@@ -167,6 +167,15 @@ mod tests {
     }
 
     #[test]
+    fn a_table_is_its_wavelengths_and_values_whatever_was_done_to_it() {
+        let table = InterpolatedSf::new([400.0, 511.0, 633.0, 700.0], [0.1, 0.7, 0.3, 0.9]).unwrap();
+        for changed in [table.clone().scaled(1.0 / 87.1971), table.normalised().unwrap()] {
+            let again = InterpolatedSf::new(changed.wavelengths(), changed.values()).unwrap();
+            assert_eq!(changed, again);
+        }
+    }
+
+    #[test]
     fn integrals_are_exact_at_any_bin_width() {
         let line = InterpolatedSf::new([499.999, 500.0, 500.001], [0.0, 1000.0, 0.0]).unwrap();
         for bins in [1, 7, 1000] {
