@@ -55,7 +55,7 @@ pub enum SaveError {
     Syntax {
         /// Line, counted from 1.
         line: usize,
-        /// Column, counted from 1.
+        /// Column where it was noticed, counted from 1.
         column: usize,
         /// What is wrong.
         what: String,
