@@ -92,7 +92,10 @@ mod tests {
 
     #[test]
     fn numbers_come_back_with_every_bit() {
-        for x in [0.1, -0.0, 5e-324, f64::MAX, 1.0 / 3.0, 2.2250738585072011e-308] {
+        let mut rng = raysect_math::Rng::new(5);
+        let random = std::iter::repeat_with(|| rng.range(-1.0, 1.0) * 10f64.powf(rng.range(-320.0, 308.0)));
+        let special = [0.1, -0.0, 5e-324, f64::MAX, 1.0 / 3.0, f64::MIN_POSITIVE.next_down()];
+        for x in special.into_iter().chain(random.take(10_000)) {
             let text = Value::from(x).to_string();
             assert_eq!(parse(&text).unwrap().as_f64().unwrap().to_bits(), x.to_bits(), "{text}");
         }
