@@ -35,7 +35,7 @@
 //! nodes, an acceleration structure of the user's own.
 //!
 //! # Your own types
-//! A shape says what a file needs to know by [`Primitive::save`](crate::Primitive::save), and one line of the registry
+//! A shape says what a file needs to know by [`Primitive::save`], and one line of the registry
 //! makes it again. Settings of your own implement [`Storable`].
 
 mod entry;
