@@ -72,7 +72,7 @@
 pub use crate::core::save::{
     Entry, MakeError, Registry, SaveError, Saved, SceneObject, SceneWriter, Storable,
 };
-pub use crate::optical::{MaterialRegistry, SavedScene, SpectralEntry};
+pub use crate::optical::{MaterialRegistry, OpticalEntry, SavedScene};
 
 /// A registry of every shape, material and spectral function of this library.
 pub fn registry() -> Registry {

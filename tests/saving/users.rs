@@ -6,7 +6,7 @@ use raysect::core::testing::Ball;
 use raysect::math::AffineMatrix3D;
 use raysect::prelude::*;
 use raysect::save::{
-    MaterialRegistry, Registry, SaveError, Saved, SavedScene, SceneWriter, SpectralEntry, registry,
+    MaterialRegistry, OpticalEntry, Registry, SaveError, Saved, SavedScene, SceneWriter, registry,
 };
 use raysect::{core, optical};
 
@@ -124,6 +124,32 @@ fn what_does_not_say_how_it_is_saved_is_named_with_its_node() {
     assert!(message.starts_with("node 'here (Sphere)': Constant with value = NaN"), "{message}");
     let message = refusal(Sphere::default().material(NullMaterial).meta("notes", vec![1, 2]));
     assert!(message.contains("node 'here (Sphere)': the user's value 'notes'"), "{message}");
+}
+
+/// Another material under another name.
+struct Coat(Arc<dyn Material>);
+
+impl Material for Coat {
+    fn surface(&self, hit: &SurfaceHit, path: &mut Path) -> Scatter {
+        self.0.surface(hit, path)
+    }
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("Coat").reference("base", writer.shared_object(&self.0)?))
+    }
+}
+
+#[test]
+fn materials_hold_materials() {
+    let mut world = World::new();
+    let base: Arc<dyn Material> = Arc::new(Lambert::new(0.125));
+    world.add(Sphere::default().material(Coat(base.clone()))).unwrap();
+    world.add(Sphere::default().material(base)).unwrap();
+    let text = text_of(&world);
+    assert_eq!(text.matches("\"Lambert\"").count(), 1, "{text}");
+    let mut registry = registry();
+    registry.material("Coat", |entry| Ok(Coat(entry.material("base")?)));
+    let read = SavedScene::from_json(&text, &registry).unwrap().world;
+    assert_eq!(text_of(&read), text);
 }
 
 #[test]

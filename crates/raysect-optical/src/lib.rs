@@ -80,7 +80,7 @@ pub use material::{
 };
 pub use path::{LEDGER_NUMBERS, Ledger, LightSampling, Path, PathSettings};
 pub use ray::{Ray, SampledSpectrum};
-pub use register::{MaterialRegistry, SavedScene, SpectralEntry, register};
+pub use register::{MaterialRegistry, OpticalEntry, SavedScene, register};
 pub use slice::{Slice, Slicing, SpectralTable, Table};
 pub use spectral_function::{InterpolatedSf, Sellmeier, SpectralFunction};
 pub use spectrum::{Spectrum, photon_energy};

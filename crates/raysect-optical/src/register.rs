@@ -14,7 +14,7 @@ pub type SavedScene = raysect_core::save::SavedScene<Optics>;
 ///
 /// ```
 /// use raysect_core::save::Registry;
-/// use raysect_optical::{Lambert, MaterialRegistry, SpectralEntry};
+/// use raysect_optical::{Lambert, MaterialRegistry, OpticalEntry};
 ///
 /// let mut registry = Registry::new();
 /// registry.material("Lambert", |entry| Ok(Lambert::new(entry.function("reflectivity")?)));
@@ -53,18 +53,28 @@ impl MaterialRegistry for Registry {
     }
 }
 
-/// Reads spectral functions of objects in a file.
-pub trait SpectralEntry {
+/// Reads what materials are made of.
+pub trait OpticalEntry {
     /// The function that a field refers to.
     ///
     /// # Errors
     /// As [`Entry::object`].
     fn function(&self, name: &str) -> Result<SpectralTable, SaveError>;
+
+    /// The other material that a field refers to.
+    ///
+    /// # Errors
+    /// As [`Entry::object`].
+    fn material(&self, name: &str) -> Result<Arc<dyn Material>, SaveError>;
 }
 
-impl SpectralEntry for Entry<'_> {
+impl OpticalEntry for Entry<'_> {
     fn function(&self, name: &str) -> Result<SpectralTable, SaveError> {
         Ok(SpectralTable::clone(&*self.object::<SpectralTable>(name)?))
+    }
+
+    fn material(&self, name: &str) -> Result<Arc<dyn Material>, SaveError> {
+        Ok(self.object::<Optics>(name)?.0.clone())
     }
 }
 

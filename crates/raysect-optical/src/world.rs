@@ -1,5 +1,7 @@
 //! The world of optics: shapes with materials.
 
+use std::sync::Arc;
+
 use raysect_core::save::{SaveError, Saved, SceneObject, SceneWriter};
 use raysect_core::{Attachment, Instance, Node, NodeId, Primitive};
 
@@ -7,12 +9,12 @@ use crate::illumination::Illumination;
 use crate::{Material, OpticalError};
 
 /// What hangs on a shape in an optical world: its material.
-pub struct Optics(Box<dyn Material>);
+pub struct Optics(pub(crate) Arc<dyn Material>);
 
 impl Optics {
     /// Around a material.
     pub fn new(material: impl Material) -> Self {
-        Self(Box::new(material))
+        Self(Arc::new(material))
     }
 
     /// The material.
@@ -31,7 +33,7 @@ impl SceneObject for Optics {
     const ROLE: &'static str = "material";
 
     fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
-        self.material().save(writer)
+        writer.shared(&self.0, |material, writer| material.save(writer))
     }
 }
 

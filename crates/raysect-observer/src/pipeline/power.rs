@@ -1,5 +1,5 @@
 use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
-use raysect_optical::{Slicing, SpectralEntry, SpectralTable};
+use raysect_optical::{OpticalEntry, Slicing, SpectralTable};
 
 use super::{Measurement, Pipeline};
 use crate::Frame;

@@ -22,7 +22,7 @@ pub use medium::{Coefficients, Medium, MediumPoint, Refraction};
 pub use null::NullMaterial;
 pub use surface_hit::SurfaceHit;
 
-use raysect_core::save::{SaveError, Saved, SceneWriter, short_name};
+use raysect_core::save::{SaveError, Saved, SceneObject, SceneWriter, short_name};
 use raysect_math::Vector3D;
 
 use crate::{OpticalError, Path, Slice};
@@ -125,16 +125,23 @@ pub trait Material: Send + Sync + 'static {
         Ok(())
     }
 
-    /// What a file needs to know to make it again; see [`raysect_core::save`]. It refers to a [`SpectralTable`] by
-    /// [`SceneWriter::object`], and to another material by [`SceneWriter::shared_object`] of an
-    /// `Arc` of [`Optics`](crate::Optics).
-    ///
-    /// [`SpectralTable`]: crate::SpectralTable
+    /// What a file needs to know to make it again; see [`raysect_core::save`]. It refers to a
+    /// [`SpectralTable`](crate::SpectralTable) by [`SceneWriter::object`], and to an `Arc` of another material by
+    /// [`SceneWriter::shared_object`].
     ///
     /// # Errors
     /// [`SaveError::NotSaved`] by default.
     fn save(&self, _writer: &mut SceneWriter) -> Result<Saved, SaveError> {
         Err(SaveError::NotSaved { role: "material", kind: self.facts().name })
+    }
+}
+
+/// A material within another one; [`OpticalEntry::material`](crate::OpticalEntry::material) reads it.
+impl SceneObject for dyn Material {
+    const ROLE: &'static str = "material";
+
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Material::save(self, writer)
     }
 }
 
