@@ -27,6 +27,7 @@ mod error;
 pub mod mesh;
 mod parabola;
 mod revolution;
+mod register;
 mod sphere;
 mod torus;
 
@@ -41,5 +42,6 @@ pub use cylinder::Cylinder;
 pub use error::PrimitiveError;
 pub use mesh::{Mesh, MeshBuilder, MeshData, MeshError, MeshHealth};
 pub use parabola::Parabola;
+pub use register::register;
 pub use sphere::Sphere;
 pub use torus::Torus;
