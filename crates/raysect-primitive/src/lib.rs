@@ -26,8 +26,8 @@ mod cylinder;
 mod error;
 pub mod mesh;
 mod parabola;
-mod revolution;
 mod register;
+mod revolution;
 mod sphere;
 mod torus;
 
