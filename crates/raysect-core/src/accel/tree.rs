@@ -21,7 +21,8 @@ pub struct Tree {
 const STACK: usize = 64;
 
 fn is_endless(b: &BoundingBox3D) -> bool {
-    !b.is_empty() && !(b.lower.is_finite() && b.upper.is_finite() && b.largest_extent().is_finite())
+    let finite = b.lower.is_finite() && b.upper.is_finite() && b.largest_extent().is_finite();
+    !finite && !b.is_empty()
 }
 
 impl Tree {
