@@ -20,10 +20,12 @@
 //! A shape of your own implements [`Primitive`](raysect_core::Primitive); test it with
 //! [`check_primitive`](raysect_core::testing::check_primitive).
 
+mod csg;
 mod cuboid;
 mod error;
 mod sphere;
 
+pub use csg::{Intersect, Operand, Place, Subtract, Union};
 pub use cuboid::Cuboid;
 pub use error::PrimitiveError;
 pub use sphere::Sphere;
