@@ -20,12 +20,24 @@
 //! A shape of your own implements [`Primitive`](raysect_core::Primitive); test it with
 //! [`check_primitive`](raysect_core::testing::check_primitive).
 
+mod cone;
 mod csg;
 mod cuboid;
+mod cylinder;
 mod error;
+mod parabola;
+mod revolution;
 mod sphere;
 
+#[cfg(test)]
+mod double_double;
+#[cfg(test)]
+mod judges;
+
+pub use cone::Cone;
 pub use csg::{Intersect, Operand, Place, Subtract, Union};
 pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
 pub use error::PrimitiveError;
+pub use parabola::Parabola;
 pub use sphere::Sphere;

@@ -1,0 +1,235 @@
+use std::f64::consts::TAU;
+
+use raysect_core::{
+    BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch,
+    Surface, SurfaceSample, SurfaceSampling,
+};
+use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
+
+use crate::PrimitiveError;
+use crate::revolution::{
+    LOWER, Passage, SIDE, UPPER, ball_about_axis, chances, check_length, choose, disk_area, disk_reach,
+    face_of, flat_normal, half_arc, piece_weight, rounded_box, sample_disk, turned, within_disk,
+};
+
+/// A cylinder about the z axis with flat ends at z = 0 and z = height.
+///
+/// Faces: 0 the side, 1 the end at z = 0, 2 the end at z = height.
+///
+/// ```
+/// use raysect_core::{Interval, Primitive, Ray, Scratch};
+/// use raysect_math::{Point3D, Vector3D};
+/// use raysect_primitive::Cylinder;
+///
+/// let rod = Cylinder::new(0.5, 3.0)?;
+/// let ray = Ray::new(Point3D::new(0.0, 0.0, 5.0), -Vector3D::Z);
+/// let hit = rod.hit(&ray, Interval::AHEAD, &mut Scratch::default()).unwrap();
+/// assert_eq!((hit.distance, hit.feature.face), (2.0, 2));
+/// # Ok::<(), raysect_primitive::PrimitiveError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cylinder {
+    radius: f64,
+    height: f64,
+}
+
+impl Default for Cylinder {
+    /// Radius 0.5 m, height 1 m.
+    fn default() -> Self {
+        Self { radius: 0.5, height: 1.0 }
+    }
+}
+
+/// Directions across the axis shorter than this are scaled up before they are squared.
+const SHORT: f64 = 1e-140;
+/// The factor by which they are scaled, 2⁶⁰⁰.
+const STRETCH: f64 = f64::from_bits((1023 + 600) << 52);
+
+impl Cylinder {
+    /// Of a radius [m] and a height [m].
+    ///
+    /// # Errors
+    /// [`PrimitiveError::Dimension`] unless both lie in 1e-100 … 1e100 m.
+    pub fn new(radius: f64, height: f64) -> Result<Self, PrimitiveError> {
+        check_length("cylinder", "radius", radius)?;
+        check_length("cylinder", "height", height)?;
+        Ok(Self { radius, height })
+    }
+
+    /// The radius [m].
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// The height [m].
+    pub fn height(&self) -> f64 {
+        self.height
+    }
+
+    /// Volume, π r² h [m³].
+    pub fn volume(&self) -> f64 {
+        disk_area(self.radius) * self.height
+    }
+
+    /// Area of the side and both ends, 2 π r (r + h) [m²].
+    pub fn surface_area(&self) -> f64 {
+        TAU * self.radius * (self.radius + self.height)
+    }
+
+    #[inline]
+    fn passage(&self, ray: &Ray) -> Passage {
+        self.side(ray).above_base(ray).below(self.height, ray)
+    }
+
+    /// Within the endless cylinder: a chord of a circle in the projection along the axis, symmetrical about the place
+    /// of closest approach. Half its length comes from the distance of that place, without cancellation (E. Haines,
+    /// J. Günther, T. Akenine-Möller, *Precision Improvements for Ray/Sphere Intersection*, Ray Tracing Gems, ch. 7).
+    #[inline]
+    fn side(&self, ray: &Ray) -> Passage {
+        let (o, d) = (ray.origin, ray.direction);
+        let longer = d.x.abs().max(d.y.abs());
+        if longer < SHORT {
+            return self.steep_side(ray, longer);
+        }
+        self.chord(o, d.x, d.y, 1.0)
+    }
+
+    /// For lines that are all but parallel to the axis.
+    #[cold]
+    fn steep_side(&self, ray: &Ray, longer: f64) -> Passage {
+        let (o, d) = (ray.origin, ray.direction);
+        if longer == 0.0 {
+            let outside = (o.x * o.x + o.y * o.y).sqrt() > self.radius;
+            return Passage::within_side(f64::NEG_INFINITY, f64::INFINITY, outside);
+        }
+        self.chord(o, d.x * STRETCH, d.y * STRETCH, STRETCH)
+    }
+
+    #[inline]
+    fn chord(&self, o: Point3D, dx: f64, dy: f64, stretch: f64) -> Passage {
+        let inverse = 1.0 / (dx * dx + dy * dy).sqrt();
+        let (dx, dy) = (dx * inverse, dy * inverse);
+        let along = o.x * dx + o.y * dy;
+        let miss = (o.x * dy - o.y * dx).abs();
+        let squared = (self.radius - miss) * (self.radius + miss);
+        let half = squared.max(0.0).sqrt();
+        // One factor after the other: their product may overflow where the result does not.
+        let distance = |across: f64| across * inverse * stretch;
+        Passage::within_side(distance(-along - half), distance(half - along), squared < 0.0)
+    }
+
+    /// The probability with which each face is chosen by light sampling, and half the arc of the side that is seen.
+    fn seen(&self, from: Point3D) -> ([f64; 3], f64) {
+        let (r, h) = (self.radius, self.height);
+        let away = from.x.hypot(from.y);
+        let arc = half_arc(r, away);
+        let side = if arc > 0.0 { piece_weight(2.0 * r * h, away - r, from.z - 0.5 * h) } else { 0.0 };
+        let end = |height| piece_weight(disk_area(r), height, away);
+        (chances([side, end(-from.z), end(from.z - h)]), arc)
+    }
+}
+
+impl Primitive for Cylinder {
+    fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
+        rounded_box(m, |axis| {
+            let (reach, tip) = (self.radius * disk_reach(m, axis), self.height * m.get(axis, 2));
+            (tip.min(0.0) - reach, tip.max(0.0) + reach)
+        })
+    }
+
+    fn bounding_sphere(&self, m: &AffineMatrix3D) -> BoundingSphere3D {
+        match m.similarity_scale() {
+            Some(scale) => {
+                let half = 0.5 * self.height;
+                ball_about_axis(m, scale, half, self.radius.hypot(half))
+            }
+            None => self.bounding_box(m).enclosing_sphere(),
+        }
+    }
+
+    fn contains(&self, p: Point3D) -> bool {
+        p.z >= 0.0 && p.z <= self.height && (p.x * p.x + p.y * p.y).sqrt() <= self.radius
+    }
+
+    fn crossings(&self, ray: &Ray, _: &mut Scratch, out: &mut Vec<Crossing>) {
+        self.passage(ray).report(out);
+    }
+
+    #[inline]
+    fn hit(&self, ray: &Ray, within: Interval, _: &mut Scratch) -> Option<Crossing> {
+        self.passage(ray).first(within)
+    }
+
+    fn hit_after(&self, ray: &Ray, left: &Departure, max_distance: f64, _: &mut Scratch) -> Option<Crossing> {
+        if !left.inward {
+            return None;
+        }
+        self.passage(ray).exit_ahead(max_distance)
+    }
+
+    #[inline]
+    fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
+        let p = ray.point_at(crossing.distance);
+        let face = crossing.feature.face;
+        if face != SIDE {
+            let (x, y) = within_disk(p.x, p.y, self.radius);
+            let point = Point3D::new(x, y, if face == UPPER { self.height } else { 0.0 });
+            let normal = flat_normal(face);
+            return Surface { point, normal, shading_normal: normal, bound: 0.0 };
+        }
+        let rho = (p.x * p.x + p.y * p.y).sqrt();
+        let (nx, ny) = if rho > 0.0 { (p.x / rho, p.y / rho) } else { (1.0, 0.0) };
+        let normal = Normal3D::new(nx, ny, 0.0);
+        Surface {
+            point: Point3D::new(nx * self.radius, ny * self.radius, p.z.clamp(0.0, self.height)),
+            normal,
+            shading_normal: normal,
+            bound: 4.0 * f64::EPSILON * self.radius,
+        }
+    }
+
+    fn is_convex(&self) -> bool {
+        true
+    }
+
+    fn surface_sampling(&self) -> SurfaceSampling {
+        SurfaceSampling::Area
+    }
+
+    /// Faces are chosen by the solid angle that they would subtend if they were small; on each, points are uniform
+    /// over the part that is seen.
+    fn sample_surface(&self, from: Point3D, u: [f64; 3]) -> Option<SurfaceSample> {
+        let (chances, arc) = self.seen(from);
+        let face = choose(&chances, u[0])?;
+        let chance = chances[face as usize];
+        match face {
+            LOWER => return Some(sample_disk(self.radius, 0.0, face, chance, [u[1], u[2]])),
+            UPPER => return Some(sample_disk(self.radius, self.height, face, chance, [u[1], u[2]])),
+            _ => {}
+        }
+        let (nx, ny) = turned(from, 1.0, arc * (2.0 * u[1] - 1.0));
+        Some(SurfaceSample {
+            point: Point3D::new(nx * self.radius, ny * self.radius, u[2] * self.height),
+            normal: Normal3D::new(nx, ny, 0.0),
+            feature: face_of(SIDE),
+            density: chance / (2.0 * arc * self.radius * self.height),
+        })
+    }
+
+    fn surface_density(&self, from: Point3D, point: Point3D, feature: Feature) -> f64 {
+        let (chances, arc) = self.seen(from);
+        let Some(&chance) = chances.get(feature.face as usize) else { return 0.0 };
+        if chance == 0.0 {
+            return 0.0;
+        }
+        if feature.face != SIDE {
+            return chance / disk_area(self.radius);
+        }
+        let squared = self.radius * self.radius;
+        let seen = point.x * from.x + point.y * from.y >= squared * (1.0 - 8.0 * f64::EPSILON);
+        if seen { chance / (2.0 * arc * self.radius * self.height) } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests;
