@@ -261,7 +261,11 @@ impl Composite {
                     Order::Second => (y, true),
                     Order::Together { second } => {
                         // One of the two speaks for the event; the other only toggles.
-                        if second { (in_a, _) = (!in_a, a.next()) } else { (in_b, _) = (!in_b, b.next()) }
+                        if second {
+                            (in_a, _) = (!in_a, a.next())
+                        } else {
+                            (in_b, _) = (!in_b, b.next())
+                        }
                         if second { (y, true) } else { (x, false) }
                     }
                 },
@@ -307,11 +311,7 @@ impl Composite {
             return surface;
         }
         let turned = |n: Normal3D| Normal3D::from(-n.as_vector());
-        Surface {
-            normal: turned(surface.normal),
-            shading_normal: turned(surface.shading_normal),
-            ..surface
-        }
+        Surface { normal: turned(surface.normal), shading_normal: turned(surface.shading_normal), ..surface }
     }
 }
 

@@ -86,8 +86,7 @@ impl Member {
         let placed = |source: MathError| PrimitiveError::OperandTransform { shape, position, source };
         let to_local = to_parent.inverse().map_err(placed)?;
         let bounds = inner.bounding_box(&to_parent);
-        let corner =
-            if bounds.is_empty() { 0.0 } else { bounds.lower.max_abs().max(bounds.upper.max_abs()) };
+        let corner = if bounds.is_empty() { 0.0 } else { bounds.lower.max_abs().max(bounds.upper.max_abs()) };
         let shift = to_parent.origin().max_abs();
         let in_place = to_parent == AffineMatrix3D::IDENTITY;
         Ok(Self {
