@@ -1,7 +1,7 @@
 use std::ops::ControlFlow;
 
 use raysect_core::{
-    BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Ray, Scratch, Surface,
+    BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch, Surface,
 };
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
@@ -96,10 +96,6 @@ impl Composite {
         Ok(composite)
     }
 
-    pub(super) fn describe(&self, name: &str, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{name}({}, {})", self.a.shape.kind(), self.b.shape.kind())
-    }
-
     /// From the boxes of the operands under the same map.
     fn combined_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
         let a = self.a.bounding_box(m);
@@ -116,103 +112,14 @@ impl Composite {
         }
     }
 
-    pub(super) fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
-        let combined = self.combined_box(m);
-        match self.operation {
-            // What the operands have in common may be smaller than the corner that their turned boxes share.
-            Operation::Intersect => combined.intersection(&self.bounds.transformed(m)),
-            _ => combined,
-        }
-    }
-
-    pub(super) fn bounding_sphere(&self, m: &AffineMatrix3D) -> BoundingSphere3D {
-        let around_box = self.bounding_box(m).enclosing_sphere();
-        let of = |member: &Member| member.shape.bounding_sphere(&member.placed_by(m));
-        let smaller = |s: BoundingSphere3D, t: BoundingSphere3D| if t.radius < s.radius { t } else { s };
-        match self.operation {
-            Operation::Union => smaller(around_box, of(&self.a).union(&of(&self.b))),
-            Operation::Subtract => smaller(around_box, of(&self.a)),
-            Operation::Intersect => smaller(around_box, smaller(of(&self.a), of(&self.b))),
-        }
-    }
-
-    pub(super) fn contains(&self, point: Point3D) -> bool {
-        // The second operand is asked only if it matters.
-        match (self.operation, self.a.contains(point)) {
-            (Operation::Union, true) => true,
-            (Operation::Intersect | Operation::Subtract, false) => false,
-            (operation, in_a) => operation.apply(in_a, self.b.contains(point)),
-        }
-    }
-
-    pub(super) fn is_convex(&self) -> bool {
-        self.convex
-    }
-
-    pub(super) fn parts(&self) -> u32 {
-        self.parts[1]
-    }
-
-    pub(super) fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
-        self.visit(ray, scratch, |crossing| {
-            out.push(crossing);
-            ControlFlow::Continue(())
-        });
-    }
-
-    pub(super) fn hit(&self, ray: &Ray, within: Interval, scratch: &mut Scratch) -> Option<Crossing> {
-        let mut first = None;
-        self.visit(ray, scratch, |crossing| {
-            if within.contains(crossing.distance) {
-                first = Some(crossing);
-                return ControlFlow::Break(());
-            }
-            ControlFlow::Continue(())
-        });
-        first
-    }
-
-    /// As every shape does by default; but where the body or the gap is thinner than rounding, so that the crossing
-    /// that is being left cannot be found, what must come next comes at once.
-    pub(super) fn hit_after(
-        &self,
-        ray: &Ray,
-        departure: &Departure,
-        max_distance: f64,
-        scratch: &mut Scratch,
-    ) -> Option<Crossing> {
-        let mut all = scratch.take();
-        self.crossings(ray, scratch, &mut all);
-        let left = all
-            .iter()
-            .enumerate()
-            .filter(|(_, c)| c.exiting != departure.inward && c.distance.abs() <= departure.bound)
-            .min_by(|a, b| a.1.distance.abs().total_cmp(&b.1.distance.abs()))
-            .map(|(index, _)| index);
-        let next = match left {
-            Some(index) => all.get(index + 1).copied(),
-            None => all.iter().copied().find(|c| c.distance > 0.0),
-        };
-        scratch.give_back(all);
-        let next = match next {
-            Some(crossing) if crossing.exiting == departure.inward => next,
-            None if !departure.inward => next,
-            _ => self.leave_at_once(ray, departure, scratch).or(next),
-        };
-        let next = next.map(|c| Crossing { distance: c.distance.max(0.0), ..c });
-        next.filter(|c| c.distance <= max_distance)
-    }
-
     /// The face of an operand, among those that go through the origin of the ray, which ends what the ray is in.
     #[cold]
     fn leave_at_once(&self, ray: &Ray, departure: &Departure, scratch: &mut Scratch) -> Option<Crossing> {
-        let (mut a, mut b) = self.operand_crossings(ray, scratch);
+        let (a, b) = self.operand_crossings(ray, scratch);
         let of_b = b.iter().map(|c| self.as_own(c, true));
         let nearest = (a.iter().copied().chain(of_b))
             .filter(|c| c.exiting == departure.inward && c.distance.abs() <= 4.0 * departure.bound)
             .min_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs()));
-        a.clear();
-        b.clear();
         scratch.give_back(a);
         scratch.give_back(b);
         nearest.map(|c| Crossing { distance: 0.0, ..c })
@@ -298,8 +205,95 @@ impl Composite {
         let inverted = self.operation == Operation::Subtract;
         Crossing { feature, exiting: crossing.exiting != inverted, ..*crossing }
     }
+}
 
-    pub(super) fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
+impl std::fmt::Debug for Composite {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}, {}", self.a.shape.kind(), self.b.shape.kind())
+    }
+}
+
+impl Primitive for Composite {
+    fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
+        let combined = self.combined_box(m);
+        match self.operation {
+            // What the operands have in common may be smaller than the corner that their turned boxes share.
+            Operation::Intersect => combined.intersection(&self.bounds.transformed(m)),
+            _ => combined,
+        }
+    }
+
+    fn bounding_sphere(&self, m: &AffineMatrix3D) -> BoundingSphere3D {
+        let around_box = self.bounding_box(m).enclosing_sphere();
+        let of = |member: &Member| member.shape.bounding_sphere(&member.placed_by(m));
+        let smaller = |s: BoundingSphere3D, t: BoundingSphere3D| if t.radius < s.radius { t } else { s };
+        match self.operation {
+            Operation::Union => smaller(around_box, of(&self.a).union(&of(&self.b))),
+            Operation::Subtract => smaller(around_box, of(&self.a)),
+            Operation::Intersect => smaller(around_box, smaller(of(&self.a), of(&self.b))),
+        }
+    }
+
+    fn contains(&self, point: Point3D) -> bool {
+        // The second operand is asked only if it matters.
+        match (self.operation, self.a.contains(point)) {
+            (Operation::Union, true) => true,
+            (Operation::Intersect | Operation::Subtract, false) => false,
+            (operation, in_a) => operation.apply(in_a, self.b.contains(point)),
+        }
+    }
+
+    fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
+        self.visit(ray, scratch, |crossing| {
+            out.push(crossing);
+            ControlFlow::Continue(())
+        });
+    }
+
+    fn hit(&self, ray: &Ray, within: Interval, scratch: &mut Scratch) -> Option<Crossing> {
+        let mut first = None;
+        self.visit(ray, scratch, |crossing| {
+            if within.contains(crossing.distance) {
+                first = Some(crossing);
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(())
+        });
+        first
+    }
+
+    /// As every shape does by default; but where the body or the gap is thinner than rounding, so that the crossing
+    /// that is being left cannot be found, what must come next comes at once.
+    fn hit_after(
+        &self,
+        ray: &Ray,
+        departure: &Departure,
+        max_distance: f64,
+        scratch: &mut Scratch,
+    ) -> Option<Crossing> {
+        let mut all = scratch.take();
+        self.crossings(ray, scratch, &mut all);
+        let left = all
+            .iter()
+            .enumerate()
+            .filter(|(_, c)| c.exiting != departure.inward && c.distance.abs() <= departure.bound)
+            .min_by(|a, b| a.1.distance.abs().total_cmp(&b.1.distance.abs()))
+            .map(|(index, _)| index);
+        let next = match left {
+            Some(index) => all.get(index + 1).copied(),
+            None => all.iter().copied().find(|c| c.distance > 0.0),
+        };
+        scratch.give_back(all);
+        let next = match next {
+            Some(crossing) if crossing.exiting == departure.inward => next,
+            None if !departure.inward => next,
+            _ => self.leave_at_once(ray, departure, scratch).or(next),
+        };
+        let next = next.map(|c| Crossing { distance: c.distance.max(0.0), ..c });
+        next.filter(|c| c.distance <= max_distance)
+    }
+
+    fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
         let Some(part) = crossing.feature.part.checked_sub(self.parts[0]) else {
             return self.a.surface(ray, crossing);
         };
@@ -312,6 +306,14 @@ impl Composite {
         }
         let turned = |n: Normal3D| Normal3D::from(-n.as_vector());
         Surface { normal: turned(surface.normal), shading_normal: turned(surface.shading_normal), ..surface }
+    }
+
+    fn is_convex(&self) -> bool {
+        self.convex
+    }
+
+    fn parts(&self) -> u32 {
+        self.parts[1]
     }
 }
 

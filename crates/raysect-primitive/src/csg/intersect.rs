@@ -1,6 +1,7 @@
+use super::Operand;
 use super::composite::{Composite, Operation};
-use super::{Operand, answers_by_composite};
 use crate::PrimitiveError;
+use crate::inner::answers_by_inner;
 
 /// What is in both of two bodies.
 ///
@@ -18,7 +19,7 @@ use crate::PrimitiveError;
 /// assert!(almond.is_convex());
 /// # Ok::<(), raysect_primitive::PrimitiveError>(())
 /// ```
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Intersect(pub(super) Composite);
 
 impl Intersect {
@@ -32,4 +33,4 @@ impl Intersect {
     }
 }
 
-answers_by_composite!(Intersect);
+answers_by_inner!(Intersect);

@@ -1,6 +1,7 @@
+use super::Operand;
 use super::composite::{Composite, Operation};
-use super::{Operand, answers_by_composite};
 use crate::PrimitiveError;
+use crate::inner::answers_by_inner;
 
 /// The first of two bodies without the second.
 ///
@@ -19,7 +20,7 @@ use crate::PrimitiveError;
 /// assert!(!dented.contains(Point3D::new(0.0, 0.0, 0.8)));
 /// # Ok::<(), raysect_primitive::PrimitiveError>(())
 /// ```
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Subtract(pub(super) Composite);
 
 impl Subtract {
@@ -33,4 +34,4 @@ impl Subtract {
     }
 }
 
-answers_by_composite!(Subtract);
+answers_by_inner!(Subtract);

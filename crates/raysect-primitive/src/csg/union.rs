@@ -1,6 +1,7 @@
+use super::Operand;
 use super::composite::{Composite, Operation};
-use super::{Operand, answers_by_composite};
 use crate::PrimitiveError;
+use crate::inner::answers_by_inner;
 
 /// What is in one of two bodies or in both. Surfaces inside the other body vanish.
 ///
@@ -19,7 +20,7 @@ use crate::PrimitiveError;
 /// assert_eq!(all.iter().map(|c| c.distance).collect::<Vec<_>>(), [1.5, 3.5]);
 /// # Ok::<(), raysect_primitive::PrimitiveError>(())
 /// ```
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Union(pub(super) Composite);
 
 impl Union {
@@ -33,4 +34,4 @@ impl Union {
     }
 }
 
-answers_by_composite!(Union);
+answers_by_inner!(Union);

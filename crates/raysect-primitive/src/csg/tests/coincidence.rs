@@ -119,7 +119,7 @@ impl Naive {
     }
 }
 
-crate::csg::answers_by_composite!(Naive);
+crate::inner::answers_by_inner!(Naive);
 
 #[test]
 fn without_the_tie_rule_there_are_gaps_and_skins() {
