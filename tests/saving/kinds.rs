@@ -12,7 +12,34 @@ fn shapes() -> Vec<Arc<dyn Primitive>> {
     vec![
         Arc::new(Sphere::new(0.1).unwrap()),
         Arc::new(Cuboid::new(Point3D::new(-0.1, -0.2, 0.3), Point3D::new(0.1, 1.0 / 3.0, 0.3)).unwrap()),
+        Arc::new(Cylinder::new(0.1, 1.0 / 7.0).unwrap()),
+        Arc::new(Cone::new(0.3, 0.2).unwrap()),
+        Arc::new(Parabola::new(0.3, 0.7).unwrap()),
+        Arc::new(Torus::new(0.3, 0.1).unwrap()),
+        Arc::new(BiConvex::new(0.0254, 0.01, 0.05, 0.08).unwrap()),
+        Arc::new(BiConcave::new(0.0254, 0.01, 0.05, 0.08).unwrap()),
+        Arc::new(Meniscus::new(0.0254, 0.003, 0.05, 0.08).unwrap()),
+        Arc::new(PlanoConvex::new(0.0254, 0.01, 0.05).unwrap()),
+        Arc::new(PlanoConcave::new(0.0254, 0.01, 0.05).unwrap()),
+        Arc::new(composite()),
+        Arc::new(Mesh::new(smooth_ball()).unwrap()),
+        Arc::new(Mesh::builder(smooth_ball()).smoothing(false).closed(false).build().unwrap()),
     ]
+}
+
+/// All three kinds, one within the other, with an operand that is used twice.
+fn composite() -> Subtract {
+    let ball = Arc::new(Sphere::new(0.5).unwrap());
+    let both = Union::new(ball.clone(), ball.placed(translate(0.1, 1.0 / 3.0, 0.0))).unwrap();
+    let cut = Intersect::new(both, Cuboid::default().placed(rotate(10.0, 20.0, 30.0))).unwrap();
+    Subtract::new(cut, Cylinder::new(0.1, 2.0).unwrap()).unwrap()
+}
+
+fn smooth_ball() -> MeshData {
+    let ball = MeshData::icosphere(1, 0.3).unwrap();
+    let normals: Vec<[f64; 3]> = ball.vertices().iter().map(|p| p.to_array()).collect();
+    let indices = ball.triangles().to_vec();
+    ball.with_normals(normals, indices).unwrap()
 }
 
 fn materials() -> Vec<Optics> {

@@ -1,5 +1,6 @@
 use std::ops::ControlFlow;
 
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{
     BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch, Surface,
 };
@@ -76,6 +77,12 @@ pub(super) struct Composite {
 }
 
 impl Composite {
+    /// Adds what is to be saved of both operands.
+    pub(super) fn saved(&self, saved: Saved, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let with_a = self.a.saved(saved, "a", writer)?;
+        self.b.saved(with_a, "b", writer)
+    }
+
     pub(super) fn new(operation: Operation, a: Operand, b: Operand) -> Result<Self, PrimitiveError> {
         let a = Member::new(a, operation.name(), "first")?;
         let b = Member::new(b, operation.name(), "second")?;

@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{BoundingBox3D, Crossing, Primitive, Ray, Scratch, Surface};
 use raysect_math::{AffineMatrix3D, MathError, Normal3D, Point3D};
 
@@ -104,6 +105,17 @@ impl Member {
             stretch: (0..3).map(|i| row_sum(&to_parent, i)).fold(0.0, f64::max),
             shift,
         })
+    }
+
+    /// Adds what is to be saved of it, under names that begin with `which`.
+    pub(super) fn saved(
+        &self,
+        saved: Saved,
+        which: &str,
+        writer: &mut SceneWriter,
+    ) -> Result<Saved, SaveError> {
+        let shape = writer.shared_object(&self.shape)?;
+        Ok(saved.reference(which, shape).transform(&format!("{which}_transform"), &self.to_parent))
     }
 
     #[inline]
