@@ -96,10 +96,12 @@ pub(crate) fn restarts_are_right(make: &Maker) {
 /// Rays that are reflected inside a shape that is placed in a world.
 pub(crate) fn nothing_is_lost<P: Primitive>(make: impl Fn(f64, f64) -> P) {
     let mut rng = Rng::new(15);
-    for size in [1e-9, 1e-3, 1.0, 1e3, 1e9] {
+    let sizes = [1e-9, 1e-3, 1.0, 1e3, 1e9].map(|size| (0.5 * size, size));
+    for (radius, height) in sizes.into_iter().chain(SHAPES) {
         for shift in [0.0, 1.0, 1e3, 1e6] {
-            let lost = lost_in_world(make(0.5 * size, size), size, shift, 10_000, &mut rng);
-            assert_eq!(lost, 0, "{size} {shift}");
+            let size = radius.hypot(height);
+            let lost = lost_in_world(make(radius, height), size, shift, 10_000, &mut rng);
+            assert_eq!(lost, 0, "{radius} × {height}, {shift} sizes away");
         }
     }
     assert!(lost_in_world(Forgetful(make(0.5, 1.0)), 1.0, 1e3, 10_000, &mut rng) > 1000);
@@ -183,7 +185,7 @@ pub(crate) fn light_sampling_is_right(make: &Maker) {
 fn lost_in_world(shape: impl Primitive, size: f64, shift: f64, rays: usize, rng: &mut Rng) -> usize {
     let mut world = World::<()>::new();
     let offset = Vector3D::new(0.6, -0.64, 0.48) * (shift * size);
-    let centre = shape.bounding_sphere(&AffineMatrix3D::IDENTITY).centre;
+    let centre = shape.bounding_box(&AffineMatrix3D::IDENTITY).enclosing_sphere().centre;
     world.add(Node::of(shape, ()).transform(translate(offset.x, offset.y, offset.z))).unwrap();
     let scene = world.scene().unwrap();
     let mut scratch = Scratch::default();
