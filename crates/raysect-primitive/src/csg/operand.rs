@@ -209,7 +209,8 @@ impl Probe {
             near = if a > near { a } else { near };
             far = if b < far { b } else { far };
         }
-        // Each distance carries three roundings.
-        near <= far + 8.0 * f64::EPSILON * (near.abs() + far.abs())
+        // Each distance carries three roundings. A line beside a slab that it runs along is infinitely near: NaN here.
+        const SLACK: f64 = 8.0 * f64::EPSILON;
+        near - SLACK * near.abs() <= far + SLACK * far.abs()
     }
 }
