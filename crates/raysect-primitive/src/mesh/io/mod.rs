@@ -1,9 +1,9 @@
 //! Files of meshes: OBJ, STL, PLY, VTK and Raysect's own RSM.
 //!
 //! Each format has a function that reads and one that writes; [`MeshData::load`](super::MeshData::load) and
-//! [`MeshData::save`](super::MeshData::save) choose by the
-//! name of the file, [`MeshData::from_bytes`](super::MeshData::from_bytes) reads what is in memory. Lengths are in metres, and what is read is
-//! multiplied by a `scaling`: 0.001 for a file in mm. Faces of more than three corners are cut into triangles.
+//! [`MeshData::save`](super::MeshData::save) choose by the name of the file,
+//! [`MeshData::from_bytes`](super::MeshData::from_bytes) reads what is in memory. Lengths are in metres, and what is
+//! read is multiplied by a `scaling`: 0.001 for a file in mm. Faces of more than three corners are cut into triangles.
 //!
 //! ```
 //! use raysect_primitive::MeshData;
