@@ -70,6 +70,8 @@ pub(super) struct Composite {
     convex: bool,
     /// In its own space.
     bounds: BoundingBox3D,
+    /// Boxes that a line must meet for either operand to matter, where to ask saves time.
+    tests: [Option<BoundingBox3D>; 2],
     /// Off in tests that show what it is good for.
     #[cfg(test)]
     pub(super) ties: bool,
@@ -87,13 +89,27 @@ impl Composite {
             reach: a.reach.max(b.reach),
             convex,
             bounds: BoundingBox3D::EMPTY,
+            tests: [None; 2],
             a,
             b,
             #[cfg(test)]
             ties: true,
         };
         composite.bounds = composite.combined_box(&AffineMatrix3D::IDENTITY);
+        composite.tests = composite.box_tests();
         Ok(composite)
+    }
+
+    fn box_tests(&self) -> [Option<BoundingBox3D>; 2] {
+        let (a, b) = (&self.a, &self.b);
+        let of = |member: &Member| member.costly.then_some(member.bounds);
+        let surrounds = b.bounds.contains(a.bounds.lower) && b.bounds.contains(a.bounds.upper);
+        match self.operation {
+            Operation::Union => [of(a), of(b)],
+            // A line through the first operand's box meets a box around it, too.
+            Operation::Subtract => [of(a), of(b).filter(|_| !surrounds)],
+            Operation::Intersect => [Some(self.bounds), None],
+        }
     }
 
     /// From the boxes of the operands under the same map.
@@ -131,12 +147,9 @@ impl Composite {
     #[inline]
     fn visit(&self, ray: &Ray, scratch: &mut Scratch, mut emit: impl FnMut(Crossing) -> ControlFlow<()>) {
         let probe = Probe::new(ray);
-        let around = if self.operation == Operation::Intersect { &self.bounds } else { &self.a.bounds };
         let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
-        let meets_a = (!self.a.costly && self.operation != Operation::Intersect)
-            || probe.meets(around, everywhere.0, everywhere.1);
         let mut both = scratch.take();
-        if meets_a {
+        if self.tests[0].as_ref().is_none_or(|bounds| probe.meets(bounds, everywhere.0, everywhere.1)) {
             self.a.crossings(ray, scratch, &mut both);
         }
         let first_of_b = both.len();
@@ -146,7 +159,7 @@ impl Composite {
             (Some(first), Some(last)) => (first.distance, last.distance),
             _ => return scratch.give_back(both),
         };
-        if !self.b.costly || probe.meets(&self.b.bounds, first, last) {
+        if self.tests[1].as_ref().is_none_or(|bounds| probe.meets(bounds, first, last)) {
             self.b.crossings(ray, scratch, &mut both);
         }
         let (a, b) = both.split_at(first_of_b);
