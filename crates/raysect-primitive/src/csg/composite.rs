@@ -7,6 +7,7 @@ use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
 use super::Operand;
 use super::operand::{Member, Probe};
+use super::tie::{Order, TieRule, larger};
 use crate::PrimitiveError;
 
 /// What is made of two bodies A and B.
@@ -39,14 +40,6 @@ impl Operation {
     }
 }
 
-/// Rays flatter than one over this to a surface are not examined for faces that coincide, unless the crossings agree
-/// to rounding as they are.
-const GRAZING: f64 = 16_777_216.0;
-
-/// The boxes of intersections are enlarged by this part of their distance from the origin, which is what the
-/// crossings of rays from some tens of sizes away may lie beside.
-const MARGIN: f64 = 4096.0 * f64::EPSILON;
-
 /// A body made of two others.
 ///
 /// Both operands report all crossings of the whole line, on one scale of distances. Outside both at minus infinity, the
@@ -62,11 +55,12 @@ const MARGIN: f64 = 4096.0 * f64::EPSILON;
 #[derive(Clone)]
 pub(super) struct Composite {
     operation: Operation,
-    a: Member,
-    b: Member,
+    pub(super) a: Member,
+    pub(super) b: Member,
     /// Leaves of A, and of both.
     parts: [u32; 2],
-    reach: f64,
+    /// Greatest coordinate of either operand that enters the arithmetic [m].
+    pub(super) reach: f64,
     convex: bool,
     /// In its own space.
     bounds: BoundingBox3D,
@@ -81,7 +75,7 @@ impl Composite {
     pub(super) fn new(operation: Operation, a: Operand, b: Operand) -> Result<Self, PrimitiveError> {
         let a = Member::new(a, operation.name(), "first")?;
         let b = Member::new(b, operation.name(), "second")?;
-        let parts = [a.shape.parts(), a.shape.parts() + b.shape.parts()];
+        let parts = [a.shape.parts(), a.shape.parts().saturating_add(b.shape.parts())];
         let convex = operation == Operation::Intersect && a.shape.is_convex() && b.shape.is_convex();
         let mut composite = Self {
             operation,
@@ -100,6 +94,7 @@ impl Composite {
         Ok(composite)
     }
 
+    /// See `tests`.
     fn box_tests(&self) -> [Option<BoundingBox3D>; 2] {
         let (a, b) = (&self.a, &self.b);
         let of = |member: &Member| member.costly.then_some(member.bounds);
@@ -118,13 +113,7 @@ impl Composite {
         match self.operation {
             Operation::Union => a.union(&self.b.bounding_box(m)),
             Operation::Subtract => a,
-            Operation::Intersect => {
-                let mut common = a.intersection(&self.b.bounding_box(m));
-                if !common.is_empty() {
-                    common.pad(MARGIN * common.lower.max_abs().max(common.upper.max_abs()));
-                }
-                common
-            }
+            Operation::Intersect => a.intersection(&self.b.bounding_box(m)),
         }
     }
 
@@ -219,7 +208,8 @@ impl Composite {
         if !of_b {
             return *crossing;
         }
-        let feature = Feature { part: crossing.feature.part + self.parts[0], ..crossing.feature };
+        let feature =
+            Feature { part: crossing.feature.part.saturating_add(self.parts[0]), ..crossing.feature };
         let inverted = self.operation == Operation::Subtract;
         Crossing { feature, exiting: crossing.exiting != inverted, ..*crossing }
     }
@@ -333,74 +323,4 @@ impl Primitive for Composite {
     fn parts(&self) -> u32 {
         self.parts[1]
     }
-}
-
-/// Which of two crossings comes first, one of each operand.
-enum Order {
-    First,
-    Second,
-    /// They are one event, for which the first or the second speaks.
-    Together {
-        second: bool,
-    },
-}
-
-/// Tells crossings apart, or not.
-struct TieRule<'a> {
-    composite: &'a Composite,
-    ray: &'a Ray,
-    /// Crossings farther apart than this are not looked at, in units of the direction's length.
-    near: f64,
-}
-
-impl<'a> TieRule<'a> {
-    /// `a` and `b` are not empty, and in order.
-    #[inline]
-    fn new(composite: &'a Composite, ray: &'a Ray, a: &[Crossing], b: &[Crossing]) -> Self {
-        let ends = [a.first(), a.last(), b.first(), b.last()];
-        let farthest = ends.into_iter().flatten().fold(0.0, |far, c| larger(far, c.distance.abs()));
-        // The direction is at least as long as its greatest component.
-        let d = ray.direction;
-        let speed = larger(larger(d.x.abs(), d.y.abs()), d.z.abs());
-        let lengths = larger(ray.origin.max_abs(), composite.reach) / speed + farthest;
-        let rounding = composite.a.rounding + composite.b.rounding;
-        Self { composite, ray, near: 2.0 * GRAZING * rounding * lengths }
-    }
-
-    #[inline]
-    fn judge(&self, a: &Crossing, b: &Crossing) -> Order {
-        if (a.distance - b.distance).abs() <= self.near
-            && let Some(together) = self.together(a, b)
-        {
-            return together;
-        }
-        if a.distance <= b.distance { Order::First } else { Order::Second }
-    }
-
-    /// With the slopes of both surfaces. The one that the ray meets more steeply knows better where it is.
-    #[cold]
-    fn together(&self, a: &Crossing, b: &Crossing) -> Option<Order> {
-        #[cfg(test)]
-        if !self.composite.ties {
-            return None;
-        }
-        let speed = self.ray.direction.length();
-        let gap = (a.distance - b.distance).abs() * speed;
-        let reach = self.ray.origin.max_abs() + self.composite.reach;
-        let lengths = reach + a.distance.abs().max(b.distance.abs()) * speed;
-        let slope = |member: &Member, crossing: &Crossing| {
-            let normal = member.surface(self.ray, crossing).normal;
-            (normal.dot(self.ray.direction) / speed).abs()
-        };
-        let (first, second) = (&self.composite.a, &self.composite.b);
-        let (slope_a, slope_b) = (slope(first, a), slope(second, b));
-        let doubt = lengths * (first.rounding / slope_a + second.rounding / slope_b);
-        (gap <= doubt).then_some(Order::Together { second: slope_b > slope_a })
-    }
-}
-
-/// The larger of two numbers; in one instruction, since neither is a NaN.
-#[inline]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
 }

@@ -1,0 +1,78 @@
+use raysect_core::{Crossing, Ray};
+
+use super::composite::Composite;
+use super::operand::Member;
+
+/// Rays flatter than one over this to a surface are not examined for faces that coincide, unless the crossings agree
+/// to rounding as they are.
+const GRAZING: f64 = 16_777_216.0;
+
+/// Which of two crossings comes first, one of each operand.
+pub(super) enum Order {
+    First,
+    Second,
+    /// They are one event, for which the first or the second speaks.
+    Together {
+        second: bool,
+    },
+}
+
+/// Tells crossings apart, or not.
+pub(super) struct TieRule<'a> {
+    composite: &'a Composite,
+    ray: &'a Ray,
+    /// Crossings farther apart than this are not looked at, in units of the direction's length.
+    near: f64,
+}
+
+impl<'a> TieRule<'a> {
+    /// `a` and `b` are not empty, and in order.
+    #[inline]
+    pub(super) fn new(composite: &'a Composite, ray: &'a Ray, a: &[Crossing], b: &[Crossing]) -> Self {
+        let ends = [a.first(), a.last(), b.first(), b.last()];
+        let farthest = ends.into_iter().flatten().fold(0.0, |far, c| larger(far, c.distance.abs()));
+        // The direction is at least as long as its greatest component.
+        let d = ray.direction;
+        let speed = larger(larger(d.x.abs(), d.y.abs()), d.z.abs());
+        let lengths = larger(ray.origin.max_abs(), composite.reach) / speed + farthest;
+        let rounding = composite.a.rounding + composite.b.rounding;
+        Self { composite, ray, near: 2.0 * GRAZING * rounding * lengths }
+    }
+
+    #[inline]
+    pub(super) fn judge(&self, a: &Crossing, b: &Crossing) -> Order {
+        if (a.distance - b.distance).abs() <= self.near
+            && let Some(together) = self.together(a, b)
+        {
+            return together;
+        }
+        if a.distance <= b.distance { Order::First } else { Order::Second }
+    }
+
+    /// With the slopes of both surfaces. The one that the ray meets more steeply knows better where it is.
+    #[cold]
+    fn together(&self, a: &Crossing, b: &Crossing) -> Option<Order> {
+        #[cfg(test)]
+        if !self.composite.ties {
+            return None;
+        }
+        let speed = self.ray.direction.length();
+        let gap = (a.distance - b.distance).abs() * speed;
+        let reach = self.ray.origin.max_abs() + self.composite.reach;
+        let lengths = reach + a.distance.abs().max(b.distance.abs()) * speed;
+        let slope = |member: &Member, crossing: &Crossing| {
+            let normal = member.surface(self.ray, crossing).normal;
+            (normal.dot(self.ray.direction) / speed).abs()
+        };
+        let (first, second) = (&self.composite.a, &self.composite.b);
+        let (slope_a, slope_b) = (slope(first, a), slope(second, b));
+        let doubt = lengths * (first.rounding / slope_a + second.rounding / slope_b);
+        (gap <= doubt).then_some(Order::Together { second: slope_b > slope_a })
+    }
+}
+
+/// The larger of two numbers; in one instruction, since neither is a NaN.
+#[inline]
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
