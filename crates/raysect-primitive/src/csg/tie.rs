@@ -60,13 +60,15 @@ impl<'a> TieRule<'a> {
         let gap = (a.distance - b.distance).abs() * speed;
         let reach = self.ray.origin.max_abs() + self.composite.reach;
         let lengths = reach + a.distance.abs().max(b.distance.abs()) * speed;
-        let slope = |member: &Member, crossing: &Crossing| {
-            let normal = member.surface(self.ray, crossing).normal;
-            (normal.dot(self.ray.direction) / speed).abs()
+        // What happens to a crossing further down, in operands of operands, shows in the bound of its point.
+        let slope_and_doubt = |member: &Member, crossing: &Crossing| {
+            let surface = member.surface(self.ray, crossing);
+            let slope = (surface.normal.dot(self.ray.direction) / speed).abs();
+            (slope, (member.rounding + surface.bound / self.composite.reach) * lengths / slope)
         };
-        let (first, second) = (&self.composite.a, &self.composite.b);
-        let (slope_a, slope_b) = (slope(first, a), slope(second, b));
-        let doubt = lengths * (first.rounding / slope_a + second.rounding / slope_b);
+        let (slope_a, doubt_a) = slope_and_doubt(&self.composite.a, a);
+        let (slope_b, doubt_b) = slope_and_doubt(&self.composite.b, b);
+        let doubt = doubt_a + doubt_b;
         (gap <= doubt).then_some(Order::Together { second: slope_b > slope_a })
     }
 }

@@ -182,6 +182,20 @@ fn the_steeper_surface_speaks_for_an_event() {
 }
 
 #[test]
+fn operands_under_uneven_maps_still_touch() {
+    let mut rng = Rng::new(38);
+    for _ in 0..20 {
+        let turn = |rng: &mut Rng| {
+            rotate(rng.range(-180.0, 180.0), rng.range(-90.0, 90.0), rng.range(-180.0, 180.0))
+        };
+        let uneven = turn(&mut rng) * stretch(30.0, 1.0, 1.0 / 30.0) * turn(&mut rng);
+        let upper = moved(&moved(&slab(1.0, 2.0), uneven), uneven.inverse().unwrap());
+        let whole = union(&slab(0.0, 1.0), &upper);
+        assert_eq!(wrong_lines(&whole, &[[0.0, 2.0]], AffineMatrix3D::IDENTITY, 500, &mut rng), 0);
+    }
+}
+
+#[test]
 fn crossings_stay_in_order_where_events_overlap() {
     // Of a line that is all but flat to the top of a box which ends just before that which is taken off ends, too.
     let tilt = 1e-6;
