@@ -17,6 +17,6 @@ pub use crate::optical::{
     SpectralTable, Spectrum, SurfaceHit, UniformSurfaceEmitter, WithMaterial, World,
 };
 pub use crate::primitive::{
-    BiConcave, BiConvex, Cone, Cuboid, Cylinder, Intersect, Meniscus, Parabola, Place, PlanoConcave, PlanoConvex,
-    Sphere, Subtract, Union,
+    BiConcave, BiConvex, Cone, Cuboid, Cylinder, Intersect, Meniscus, Parabola, Place, PlanoConcave,
+    PlanoConvex, Sphere, Subtract, Union,
 };
