@@ -82,6 +82,7 @@ impl Light {
         self.volume_scale * instance.to_local.transform_normal_with_inverse(normal).length()
     }
 
+    #[inline]
     fn sample(
         &self,
         scene: &Scene,
@@ -135,6 +136,7 @@ impl Light {
 }
 
 /// Draws a light and a direction towards it; none if no light can be sampled from there.
+#[inline]
 pub(crate) fn sample_lights(scene: &Scene, at: &Vertex, rng: &mut Rng) -> Option<LightSample> {
     let lights = &scene.compiled.lights;
     if let [light] = &lights[..] {

@@ -19,6 +19,9 @@ use crate::{Context, Scatter, Scene, Slice, SurfaceHit};
 /// transparent surfaces.
 const PASSES: u32 = 100_000;
 
+/// So many scatterings that leave no choice of a direction are not played for.
+const SPECULAR: u32 = 32;
+
 /// One path through a scene, against the light, and the room that it needs: made once per worker and reused.
 ///
 /// A path carries a throughput, which surfaces and media reduce, and adds throughput × emission to its radiance
@@ -184,8 +187,8 @@ impl<'a> Path<'a> {
                 *(if lost { &mut self.ledger.lost } else { &mut self.ledger.escaped }) += 1;
                 return;
             };
-            let surface = self.scene.finish(&ray, &hit);
-            let at = SurfaceHit { surface, direction: ray.direction };
+            let at = SurfaceHit { surface: self.scene.finish(&ray, &hit), direction: ray.direction };
+            let surface = &at.surface;
             let scatter = if self.enter_interface(&at) { self.meet(&at) } else { Scatter::PassThrough };
             let direction = match scatter {
                 Scatter::Absorbed => {
@@ -210,9 +213,9 @@ impl<'a> Path<'a> {
                 self.ledger.lost += 1;
                 return;
             }
-            let mut leaving = Leaving::new(&surface, ray.direction, direction, self.leaving.as_ref());
+            let mut leaving = Leaving::new(surface, ray.direction, direction, self.leaving.as_ref());
             if self.scene.compiled.any_medium && at.leads_through(direction) {
-                self.change_medium(&surface, &mut leaving);
+                self.change_medium(surface, &mut leaving);
             }
             self.leaving = Some(leaving);
             // A ray that ends somewhere ends there also behind a transparent surface, but not round a corner.
@@ -267,7 +270,9 @@ impl<'a> Path<'a> {
         }
         self.carried *= self.favour;
         let (threshold, left) = (self.settings.roulette_threshold, largest * self.carried);
-        if left < threshold {
+        // Mirrors and clear interfaces leave a path no choice: a dim reading through dark glass stays without noise.
+        let chosen = self.density.is_some() || self.depth > SPECULAR;
+        if chosen && left < threshold {
             if !self.rng.probability(left / threshold) {
                 self.ledger.killed += 1;
                 return false;

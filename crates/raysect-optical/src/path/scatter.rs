@@ -18,12 +18,12 @@ impl Path<'_> {
         let at = self.context();
         if self.looks_for_lights() {
             let vertex = Vertex { point: hit.surface.point, instance: Some(hit.surface.instance) };
-            if let Some(light) = sample_lights(self.scene, &vertex, &mut self.rng) {
+            if let Some(light) = &sample_lights(self.scene, &vertex, &mut self.rng) {
                 let outgoing = frame.to_local(light.direction);
                 bsdf.evaluate(incoming, outgoing, at, &mut self.reflected);
                 if self.reflected.iter().any(|f| *f > 0.0) {
                     let density = self.directional_density(bsdf, hit, incoming, outgoing, light.direction);
-                    self.add_light(hit, &light, density);
+                    self.add_light(hit, light, density);
                 }
             }
         }
@@ -113,13 +113,15 @@ impl Path<'_> {
         let leaving = Leaving::new(&hit.surface, hit.direction, light.direction, self.leaving.as_ref());
         let ray = Ray::new(hit.surface.point, light.direction);
         self.ledger.shadow_rays += 1;
-        let surface = match light.surface {
+        let found;
+        let surface = match &light.surface {
             Some(surface) => surface,
             None => {
                 let crossing =
                     scene.hit_instance(instance, &ray, Some(&leaving), f64::INFINITY, &mut self.scratch);
                 let Some(crossing) = crossing else { return };
-                scene.finish(&ray, &Candidate { instance, crossing })
+                found = scene.finish(&ray, &Candidate { instance, crossing });
+                &found
             }
         };
         let ray = ray.with_max_distance(surface.distance);
@@ -139,7 +141,7 @@ impl Path<'_> {
                 return;
             }
         }
-        let at = SurfaceHit { surface, direction: light.direction };
+        let at = SurfaceHit { surface: *surface, direction: light.direction };
         let material = scene.instances[instance as usize].attached.material();
         let context =
             crate::Context { index_in: self.indices.0, index_out: self.indices.0, ..self.context() };
