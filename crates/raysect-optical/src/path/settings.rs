@@ -27,8 +27,8 @@ pub struct PathSettings {
 }
 
 impl Default for PathSettings {
-    /// Depth 500; roulette below a throughput of 20 % where a direction has been chosen; lights sampled; 20 % of the paths aimed at what else is
-    /// important.
+    /// Depth 500; roulette below a throughput of 20 % where a direction has been chosen; lights sampled; 20 % of the
+    /// paths aimed at what else is important.
     fn default() -> Self {
         Self {
             max_depth: 500,
