@@ -115,13 +115,10 @@ fn compare(name: &str, data: &MeshData, count: usize, rounds: usize) -> raysect:
     }
     std::fs::remove_dir_all(&folder)?;
     println!("{name}: {} triangles, medians of {rounds} rounds on one thread", data.triangle_count());
-    let parts: [(&str, f64, fn(&Round) -> f64); 3] = [
-        ("coherent [rays/s]", sets[0].len() as f64, |r| r.coherent),
-        ("incoherent [rays/s]", sets[1].len() as f64, |r| r.incoherent),
-        ("builds [1/s]", 1.0, |r| r.build),
-    ];
-    for (what, amount, of) in parts {
-        let rate = |rounds: &[Round]| amount / median(rounds.iter().map(of));
+    for (part, what) in ["coherent [rays/s]", "incoherent [rays/s]", "builds [1/s]"].into_iter().enumerate() {
+        let amount = sets.get(part).map_or(1.0, |rays| rays.len() as f64);
+        let seconds = |round: &Round| [round.coherent, round.incoherent, round.build][part];
+        let rate = |rounds: &[Round]| amount / median(rounds.iter().map(seconds));
         let (a, b) = (rate(&mine), rate(&other));
         if other.is_empty() {
             println!("  {what:<20} {a:.4e}");
