@@ -5,7 +5,7 @@ use std::sync::Arc;
 use raysect::core::Primitive;
 use raysect::math::{AffineMatrix3D, Point3D};
 use raysect::primitive::{
-    BiConcave, BiConvex, Cone, Cuboid, Cylinder, Intersect, Mesh, MeshData, Meniscus, Operand, Parabola,
+    BiConcave, BiConvex, Cone, Cuboid, Cylinder, Intersect, Meniscus, Mesh, MeshData, Operand, Parabola,
     Place, PlanoConcave, PlanoConvex, Sphere, Subtract, Torus, Union,
 };
 use serde_json::Value;

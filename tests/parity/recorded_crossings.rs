@@ -47,8 +47,21 @@ fn all_shapes_cross_rays_where_recorded() {
     assert_eq!(all.len(), 52);
     let kinds = recorded();
     for kind in [
-        "sphere", "box", "cylinder", "cone", "parabola", "torus", "union", "intersect", "subtract", "biconvex",
-        "biconcave", "planoconvex", "planoconcave", "meniscus", "mesh",
+        "sphere",
+        "box",
+        "cylinder",
+        "cone",
+        "parabola",
+        "torus",
+        "union",
+        "intersect",
+        "subtract",
+        "biconvex",
+        "biconcave",
+        "planoconvex",
+        "planoconcave",
+        "meniscus",
+        "mesh",
     ] {
         assert!(kinds.contains(&format!("\"kind\":\"{kind}\"")), "{kind}");
     }
@@ -116,7 +129,8 @@ fn a_wrong_shape_or_place_is_told() {
 fn malformed_lines_are_refused_with_their_number() {
     let good = recorded();
     let third = |change: &dyn Fn(&mut Value)| changed(|cases| change(&mut cases[2]));
-    let entry = |list: &'static str, value: Value| third(&move |case: &mut Value| case[list][1] = value.clone());
+    let entry =
+        |list: &'static str, value: Value| third(&move |case: &mut Value| case[list][1] = value.clone());
     let shape = |value: Value| third(&move |case: &mut Value| case["shape"] = value.clone());
     let mut texts = vec![
         (good.lines().take(2).map(|l| format!("{l}\n")).collect::<String>() + "{\"id\": \"x\",", "JSON"),
@@ -134,7 +148,10 @@ fn malformed_lines_are_refused_with_their_number() {
         (shape(json!({"kind": "mesh", "vertices": [[0.0, 0.0, 0.0]], "triangles": [[0, 1, 2]]})), "vert"),
     ];
     for list in ["rays", "crossings", "points", "inside"] {
-        texts.push((third(&move |case: &mut Value| drop(case[list].as_array_mut().unwrap().pop())), "entries"));
+        texts.push((
+            third(&move |case: &mut Value| drop(case[list].as_array_mut().unwrap().pop())),
+            "entries",
+        ));
     }
     for key in ["id", "shape", "transform", "rays", "crossings", "points", "inside"] {
         texts.push((third(&move |case: &mut Value| drop(case.as_object_mut().unwrap().remove(key))), key));

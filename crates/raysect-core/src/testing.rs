@@ -2,6 +2,7 @@
 
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D, Rng, Vector3D, rotate, translate};
 
+use crate::save::{SaveError, Saved, SceneWriter};
 use crate::{
     BoundingBox3D, Crossing, Departure, Interval, Primitive, Ray, Scratch, Surface, SurfaceSampling,
 };
@@ -254,7 +255,7 @@ fn check_sampling(
     let n = tries as f64;
     let (mean, error) = (sum / n, ((squares / n - (sum / n).powi(2)).max(0.0) / n).sqrt());
     // A shape that hardly any direction meets is too thin to judge in this way.
-    if met >= 100 && ((mean - 1.0).abs() > 5.0 * error + 1e-9 || refused == tries) {
+    if met > 50 && ((mean - 1.0).abs() > 5.0 * error + 1e-9 || refused == tries) {
         return Err(format!(
             "the sampling density integrates to {mean} ± {error}, {refused} of {tries} draws refused"
         ));
@@ -305,6 +306,9 @@ impl Ball {
 }
 
 impl Primitive for Ball {
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("Ball").number("radius", self.radius))
+    }
     fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
         let r = self.radius;
         let mut b = BoundingBox3D::around([Point3D::new(-r, -r, -r), Point3D::new(r, r, r)]);
