@@ -14,8 +14,6 @@ use crate::recorded_shape;
 
 /// How far distances may differ, in units of (distance + size of the shape).
 const DISTANCE: f64 = 1e-9;
-/// The same for lenses, which Raysect composes of other shapes.
-const LENS_DISTANCE: f64 = 1e-7;
 /// How far unit normals may differ.
 const NORMAL: f64 = 1e-7;
 
@@ -32,7 +30,6 @@ pub(crate) struct Case {
     world: World<()>,
     /// Radius of the bounding sphere \[m\].
     size: f64,
-    tolerance: f64,
     rays: Vec<(Ray, Vec<Recorded>)>,
     points: Vec<(Point3D, bool)>,
 }
@@ -92,7 +89,6 @@ impl Case {
             id: field(value, "id", text)?,
             world,
             size,
-            tolerance: if recorded_shape::has_lens(description) { LENS_DISTANCE } else { DISTANCE },
             rays: rays.into_iter().zip(crossings).collect(),
             points: points.into_iter().map(Point3D::from).zip(inside).collect(),
         })
@@ -136,7 +132,7 @@ impl Case {
             let place = format!("ray {ray}, crossing {number}");
             let distance = ours.distance();
             let error = (distance - recorded.distance).abs() / (recorded.distance + self.size);
-            finding.measure(error, self.tolerance, || {
+            finding.measure(error, DISTANCE, || {
                 format!("{place}: distance {distance}, recorded {}", recorded.distance)
             });
             let error = (ours.normal().as_vector() - recorded.normal.as_vector()).length();

@@ -47,13 +47,6 @@ pub(crate) fn shape(value: &Value) -> Result<Shape, String> {
     }
 }
 
-/// True for a lens, and for a composite with a lens in it.
-pub(crate) fn has_lens(value: &Value) -> bool {
-    let lenses = ["biconvex", "biconcave", "planoconvex", "planoconcave", "meniscus"];
-    let is_lens = value.get("kind").and_then(Value::as_str).is_some_and(|kind| lenses.contains(&kind));
-    is_lens || ["a", "b"].iter().any(|key| value.get(key).is_some_and(has_lens))
-}
-
 /// A row-major 4×4 matrix.
 pub(crate) fn transform(value: &Value) -> Result<AffineMatrix3D, String> {
     AffineMatrix3D::from_row_major(numbers(value)?).map_err(|e| e.to_string())
