@@ -8,6 +8,7 @@ use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
 use super::Operand;
 use super::operand::{Member, Probe};
+use super::tie::{Order, TieRule, larger};
 use crate::PrimitiveError;
 
 /// What is made of two bodies A and B.
@@ -40,14 +41,6 @@ impl Operation {
     }
 }
 
-/// Rays flatter than one over this to a surface are not examined for faces that coincide, unless the crossings agree
-/// to rounding as they are.
-const GRAZING: f64 = 16_777_216.0;
-
-/// The boxes of intersections are enlarged by this part of their distance from the origin, which is what the
-/// crossings of rays from some tens of sizes away may lie beside.
-const MARGIN: f64 = 4096.0 * f64::EPSILON;
-
 /// A body made of two others.
 ///
 /// Both operands report all crossings of the whole line, on one scale of distances. Outside both at minus infinity, the
@@ -63,14 +56,17 @@ const MARGIN: f64 = 4096.0 * f64::EPSILON;
 #[derive(Clone)]
 pub(super) struct Composite {
     operation: Operation,
-    a: Member,
-    b: Member,
+    pub(super) a: Member,
+    pub(super) b: Member,
     /// Leaves of A, and of both.
     parts: [u32; 2],
-    reach: f64,
+    /// Greatest coordinate of either operand that enters the arithmetic [m].
+    pub(super) reach: f64,
     convex: bool,
     /// In its own space.
     bounds: BoundingBox3D,
+    /// Boxes that a line must meet for either operand to matter, where to ask saves time.
+    tests: [Option<BoundingBox3D>; 2],
     /// Off in tests that show what it is good for.
     #[cfg(test)]
     pub(super) ties: bool,
@@ -86,7 +82,7 @@ impl Composite {
     pub(super) fn new(operation: Operation, a: Operand, b: Operand) -> Result<Self, PrimitiveError> {
         let a = Member::new(a, operation.name(), "first")?;
         let b = Member::new(b, operation.name(), "second")?;
-        let parts = [a.shape.parts(), a.shape.parts() + b.shape.parts()];
+        let parts = [a.shape.parts(), a.shape.parts().saturating_add(b.shape.parts())];
         let convex = operation == Operation::Intersect && a.shape.is_convex() && b.shape.is_convex();
         let mut composite = Self {
             operation,
@@ -94,13 +90,28 @@ impl Composite {
             reach: a.reach.max(b.reach),
             convex,
             bounds: BoundingBox3D::EMPTY,
+            tests: [None; 2],
             a,
             b,
             #[cfg(test)]
             ties: true,
         };
         composite.bounds = composite.combined_box(&AffineMatrix3D::IDENTITY);
+        composite.tests = composite.box_tests();
         Ok(composite)
+    }
+
+    /// See `tests`.
+    fn box_tests(&self) -> [Option<BoundingBox3D>; 2] {
+        let (a, b) = (&self.a, &self.b);
+        let of = |member: &Member| member.costly.then_some(member.bounds);
+        let surrounds = b.bounds.contains(a.bounds.lower) && b.bounds.contains(a.bounds.upper);
+        match self.operation {
+            Operation::Union => [of(a), of(b)],
+            // A line through the first operand's box meets a box around it, too.
+            Operation::Subtract => [of(a), of(b).filter(|_| !surrounds)],
+            Operation::Intersect => [Some(self.bounds), None],
+        }
     }
 
     /// From the boxes of the operands under the same map.
@@ -109,13 +120,7 @@ impl Composite {
         match self.operation {
             Operation::Union => a.union(&self.b.bounding_box(m)),
             Operation::Subtract => a,
-            Operation::Intersect => {
-                let mut common = a.intersection(&self.b.bounding_box(m));
-                if !common.is_empty() {
-                    common.pad(MARGIN * common.lower.max_abs().max(common.upper.max_abs()));
-                }
-                common
-            }
+            Operation::Intersect => a.intersection(&self.b.bounding_box(m)),
         }
     }
 
@@ -138,12 +143,9 @@ impl Composite {
     #[inline]
     fn visit(&self, ray: &Ray, scratch: &mut Scratch, mut emit: impl FnMut(Crossing) -> ControlFlow<()>) {
         let probe = Probe::new(ray);
-        let around = if self.operation == Operation::Intersect { &self.bounds } else { &self.a.bounds };
         let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
-        let meets_a = (!self.a.costly && self.operation != Operation::Intersect)
-            || probe.meets(around, everywhere.0, everywhere.1);
         let mut both = scratch.take();
-        if meets_a {
+        if self.tests[0].as_ref().is_none_or(|bounds| probe.meets(bounds, everywhere.0, everywhere.1)) {
             self.a.crossings(ray, scratch, &mut both);
         }
         let first_of_b = both.len();
@@ -153,7 +155,7 @@ impl Composite {
             (Some(first), Some(last)) => (first.distance, last.distance),
             _ => return scratch.give_back(both),
         };
-        if !self.b.costly || probe.meets(&self.b.bounds, first, last) {
+        if self.tests[1].as_ref().is_none_or(|bounds| probe.meets(bounds, first, last)) {
             self.b.crossings(ray, scratch, &mut both);
         }
         let (a, b) = both.split_at(first_of_b);
@@ -213,7 +215,8 @@ impl Composite {
         if !of_b {
             return *crossing;
         }
-        let feature = Feature { part: crossing.feature.part + self.parts[0], ..crossing.feature };
+        let feature =
+            Feature { part: crossing.feature.part.saturating_add(self.parts[0]), ..crossing.feature };
         let inverted = self.operation == Operation::Subtract;
         Crossing { feature, exiting: crossing.exiting != inverted, ..*crossing }
     }
@@ -327,74 +330,4 @@ impl Primitive for Composite {
     fn parts(&self) -> u32 {
         self.parts[1]
     }
-}
-
-/// Which of two crossings comes first, one of each operand.
-enum Order {
-    First,
-    Second,
-    /// They are one event, for which the first or the second speaks.
-    Together {
-        second: bool,
-    },
-}
-
-/// Tells crossings apart, or not.
-struct TieRule<'a> {
-    composite: &'a Composite,
-    ray: &'a Ray,
-    /// Crossings farther apart than this are not looked at, in units of the direction's length.
-    near: f64,
-}
-
-impl<'a> TieRule<'a> {
-    /// `a` and `b` are not empty, and in order.
-    #[inline]
-    fn new(composite: &'a Composite, ray: &'a Ray, a: &[Crossing], b: &[Crossing]) -> Self {
-        let ends = [a.first(), a.last(), b.first(), b.last()];
-        let farthest = ends.into_iter().flatten().fold(0.0, |far, c| larger(far, c.distance.abs()));
-        // The direction is at least as long as its greatest component.
-        let d = ray.direction;
-        let speed = larger(larger(d.x.abs(), d.y.abs()), d.z.abs());
-        let lengths = larger(ray.origin.max_abs(), composite.reach) / speed + farthest;
-        let rounding = composite.a.rounding + composite.b.rounding;
-        Self { composite, ray, near: 2.0 * GRAZING * rounding * lengths }
-    }
-
-    #[inline]
-    fn judge(&self, a: &Crossing, b: &Crossing) -> Order {
-        if (a.distance - b.distance).abs() <= self.near
-            && let Some(together) = self.together(a, b)
-        {
-            return together;
-        }
-        if a.distance <= b.distance { Order::First } else { Order::Second }
-    }
-
-    /// With the slopes of both surfaces. The one that the ray meets more steeply knows better where it is.
-    #[cold]
-    fn together(&self, a: &Crossing, b: &Crossing) -> Option<Order> {
-        #[cfg(test)]
-        if !self.composite.ties {
-            return None;
-        }
-        let speed = self.ray.direction.length();
-        let gap = (a.distance - b.distance).abs() * speed;
-        let reach = self.ray.origin.max_abs() + self.composite.reach;
-        let lengths = reach + a.distance.abs().max(b.distance.abs()) * speed;
-        let slope = |member: &Member, crossing: &Crossing| {
-            let normal = member.surface(self.ray, crossing).normal;
-            (normal.dot(self.ray.direction) / speed).abs()
-        };
-        let (first, second) = (&self.composite.a, &self.composite.b);
-        let (slope_a, slope_b) = (slope(first, a), slope(second, b));
-        let doubt = lengths * (first.rounding / slope_a + second.rounding / slope_b);
-        (gap <= doubt).then_some(Order::Together { second: slope_b > slope_a })
-    }
-}
-
-/// The larger of two numbers; in one instruction, since neither is a NaN.
-#[inline]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
 }

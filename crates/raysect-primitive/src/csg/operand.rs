@@ -52,10 +52,6 @@ pub trait Place: Primitive + Sized {
 
 impl<P: Primitive> Place for P {}
 
-/// How many roundings may act upon a crossing of an operand, in multiples of ε times the lengths that enter: four of
-/// the map to the operand's space for each of some levels of nesting, and those of its own solution.
-const ROUNDINGS: f64 = 32.0;
-
 /// An operand as the composite keeps it.
 #[derive(Clone)]
 pub(super) struct Member {
@@ -69,8 +65,6 @@ pub(super) struct Member {
     pub(super) bounds: BoundingBox3D,
     /// Greatest coordinate that enters the arithmetic [m].
     pub(super) reach: f64,
-    /// Error of a crossing across its surface, in units of the lengths that enter.
-    pub(super) rounding: f64,
     stretch: f64,
     shift: f64,
 }
@@ -101,7 +95,6 @@ impl Member {
             in_place,
             bounds,
             reach: corner.max(shift),
-            rounding: ROUNDINGS * f64::EPSILON * condition(&to_parent, &to_local),
             stretch: (0..3).map(|i| row_sum(&to_parent, i)).fold(0.0, f64::max),
             shift,
         })
@@ -174,12 +167,6 @@ impl Member {
 /// Sum of the magnitudes in a row of the 3×3 part.
 fn row_sum(m: &AffineMatrix3D, row: usize) -> f64 {
     (0..3).map(|column| m.get(row, column).abs()).sum()
-}
-
-/// By how much rounding grows on the way into a space and back: the norm of |M| |M⁻¹|
-/// (N. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., § 7.2).
-fn condition(m: &AffineMatrix3D, inverse: &AffineMatrix3D) -> f64 {
-    (0..3).map(|i| (0..3).map(|j| m.get(i, j).abs() * row_sum(inverse, j)).sum()).fold(1.0, f64::max)
 }
 
 /// A line, prepared for tests against boxes.

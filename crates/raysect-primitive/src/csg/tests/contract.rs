@@ -41,6 +41,27 @@ fn walls_of_a_hole_face_inward() {
 }
 
 #[test]
+fn bounds_on_errors_know_the_place_of_operands() {
+    let mut rng = Rng::new(10);
+    for (radius, far) in [(1.0, 1e6), (1.0, 0.0), (1e-3, 1e3), (1e6, 1.0)] {
+        let centre = Vector3D::new(0.6, -0.48, 0.64) * far;
+        let ball = share(Sphere::new(radius).unwrap());
+        let placed = share(
+            Union::new(ball.placed(translate(centre.x, centre.y, centre.z)), Sphere::default()).unwrap(),
+        );
+        for _ in 0..1000 {
+            let ray = line_through(Point3D::ORIGIN + centre, radius, &mut rng);
+            for c in crossings(&*placed, &ray).iter().filter(|c| c.feature.part == 0) {
+                let surface = placed.surface(&ray, c);
+                let off = (surface.point - centre).to_vector().length() - radius;
+                assert!(off.abs() <= surface.bound, "{off} {surface:?}");
+                assert!(surface.bound <= 200.0 * f64::EPSILON * (radius + far), "{surface:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn a_body_that_is_nothing_is_never_hit() {
     let ball = share(Sphere::new(1.0).unwrap());
     let nothing = [
