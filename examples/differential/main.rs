@@ -81,6 +81,7 @@ fn main() -> ExitCode {
     if !arguments.json {
         let refused = match tally.refused {
             0 => String::new(),
+            1 => ", 1 file refused".to_owned(),
             files => format!(", {files} files refused"),
         };
         println!("{} cases, {} mismatches{refused}", tally.cases, tally.mismatches);

@@ -23,7 +23,7 @@ fn main() -> raysect::Result<()> {
     // A luminous wall of squares of 8 cm, 35 cm behind the lenses.
     let wall = Cuboid::new(Point3D::new(-20.0, -20.0, 0.0), Point3D::new(20.0, 20.0, 0.1))?;
     let blue = InterpolatedSf::new([375.0, 470.0, 500.0, 740.0], [0.12, 0.12, 0.02, 0.01])?;
-    let squares = Checkerboard::new(0.08)?.spectra((blue, 1.0), (d65_white(), 0.35));
+    let squares = Checkerboard::new(0.08)?.spectra((blue, 1.5), (d65_white(), 0.55));
     world.add(wall.material(squares).transform(translate(0.04, 0.04, 0.35)).name("wall"))?;
 
     // Discs of 40 cm, their fronts towards the camera.
