@@ -6,8 +6,8 @@ use crate::{MathError, Vector3D};
 /// A function of one, two or three variables, the coordinates of a [`Place`], that yields a number or a vector.
 ///
 /// Closures and `fn`s of one to three `f64` are functions, a number or vector is a constant one, and an
-/// [`Arc`] of a function, also of `dyn Function1D` and its like, is that function. What may be missing is a value: see
-/// [`evaluate`](Self::evaluate).
+/// [`Arc`] of a function, also of `dyn Function1D` and its like, is that function. A table that is only borrowed goes
+/// into a closure: `|x: f64| table.evaluate(x)`. What may be missing is a value: see [`evaluate`](Self::evaluate).
 ///
 /// ```
 /// use raysect_math::function::Function;
