@@ -45,12 +45,16 @@ pub trait Function<P: Place>: Send + Sync {
     /// [`MathError::Undefined`] for a value that is infinite or NaN; interpolators answer
     /// [`MathError::OutsideGrid`] beyond their range.
     fn checked(&self, at: P) -> Result<Self::Value, MathError> {
-        let value = self.evaluate(at);
-        if value.is_finite() {
-            return Ok(value);
-        }
-        Err(MathError::Undefined { at: at.coordinates(), value: value.components() })
+        finite(at, self.evaluate(at))
     }
+}
+
+/// The value at a place, or the error that there is none.
+pub(super) fn finite<P: Place, V: Value>(at: P, value: V) -> Result<V, MathError> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(MathError::Undefined { at: at.coordinates(), value: value.components() })
 }
 
 impl<F, V> Function<f64> for F

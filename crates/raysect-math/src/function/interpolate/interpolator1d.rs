@@ -1,4 +1,4 @@
-use super::super::Function;
+use super::super::contract::{Function, finite};
 use super::axis::{Axis, check_values};
 use super::hermite::Hermite;
 use super::{Extrapolation1D, Interpolation1D, slopes};
@@ -117,6 +117,6 @@ impl Function<f64> for Interpolator1DArray {
 
     fn checked(&self, x: f64) -> Result<f64, MathError> {
         self.axis.check(x)?;
-        Ok(self.evaluate(x))
+        finite(x, self.evaluate(x))
     }
 }

@@ -1,4 +1,4 @@
-use super::super::Function;
+use super::super::contract::{Function, finite};
 use super::axis::check_values;
 use super::stencil::StencilAxis;
 use super::{Extrapolation, Interpolation};
@@ -89,6 +89,6 @@ impl Function<(f64, f64)> for Interpolator2DArray {
     fn checked(&self, at: (f64, f64)) -> Result<f64, MathError> {
         self.x.axis().check(at.0)?;
         self.y.axis().check(at.1)?;
-        Ok(self.evaluate(at))
+        finite(at, self.evaluate(at))
     }
 }

@@ -1,4 +1,4 @@
-use super::super::Function;
+use super::super::contract::{Function, finite};
 use super::axis::check_values;
 use super::stencil::StencilAxis;
 use super::{Extrapolation, Interpolation};
@@ -107,6 +107,6 @@ impl Function<(f64, f64, f64)> for Interpolator3DArray {
         self.x.axis().check(at.0)?;
         self.y.axis().check(at.1)?;
         self.z.axis().check(at.2)?;
-        Ok(self.evaluate(at))
+        finite(at, self.evaluate(at))
     }
 }

@@ -105,6 +105,8 @@ fn beyond_the_range_there_is_no_value() {
     assert!(f.checked(f64::NAN).is_err() && f.checked(2.7).is_ok());
     let f = f.extrapolate(Extrapolation1D::Nearest, f64::INFINITY).unwrap();
     assert_eq!((f.evaluate(f64::NEG_INFINITY), f.domain()), (1.0, (-1.0, 2.2)));
+    let line = f.clone().extrapolate(Extrapolation1D::Linear, f64::INFINITY).unwrap();
+    assert!(matches!(line.checked(f64::INFINITY), Err(MathError::Undefined { .. })));
     assert!(f.clone().extrapolate(Extrapolation1D::Nearest, -0.1).is_err());
     assert!(f.extrapolate(Extrapolation1D::Nearest, f64::NAN).is_err());
 }
