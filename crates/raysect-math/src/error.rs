@@ -81,6 +81,64 @@ pub enum MathError {
         /// The value there.
         at_high: f64,
     },
+    /// A function has no finite value where one is needed.
+    #[error("f({}) = {} is not finite", list(at), list(value))]
+    Undefined {
+        /// The coordinates of the place.
+        at: Vec<f64>,
+        /// The value there, or the components of the vector.
+        value: Vec<f64>,
+    },
+    /// An axis of a table needs a knot at each end.
+    #[error("the axis {axis} has {count} knots: it needs 2 or more")]
+    TooFewKnots {
+        /// Name of the axis.
+        axis: &'static str,
+        /// The number of knots that were given.
+        count: usize,
+    },
+    /// The knots along an axis must ascend, without two that are equal.
+    #[error("{axis}[{index}] = {value} follows {previous}: knots must ascend")]
+    KnotsNotAscending {
+        /// Name of the axis.
+        axis: &'static str,
+        /// Index of the offending knot, counted from 0.
+        index: usize,
+        /// The offending knot.
+        value: f64,
+        /// The knot before it.
+        previous: f64,
+    },
+    /// A number of a table is infinite or NaN.
+    #[error("{name}{index:?} = {value} is not finite")]
+    TableNotFinite {
+        /// Name of the axis, or `f` for the values.
+        name: &'static str,
+        /// Indices along the axes, counted from 0.
+        index: Vec<usize>,
+        /// The offending number.
+        value: f64,
+    },
+    /// A table needs one value for each point of its grid.
+    #[error("there are {count} values for a grid of {shape:?} [knots]: it needs {}", shape.iter().product::<usize>())]
+    TableSize {
+        /// The numbers of knots along the axes.
+        shape: Vec<usize>,
+        /// The number of values that were given.
+        count: usize,
+    },
+    /// A place lies farther from the grid of an interpolator than it may extrapolate.
+    #[error("{axis} = {value} is outside the range {low} … {high} of the interpolator")]
+    OutsideGrid {
+        /// Name of the axis.
+        axis: &'static str,
+        /// The coordinate that was asked for.
+        value: f64,
+        /// The lowest coordinate that is allowed.
+        low: f64,
+        /// The highest coordinate that is allowed.
+        high: f64,
+    },
     /// A parameter lies outside its range.
     #[error("{name} = {value}{}{unit} is outside its range {range}", if unit.is_empty() { "" } else { " " })]
     OutOfRange {
@@ -106,4 +164,9 @@ impl MathError {
     ) -> Result<f64, Self> {
         if admitted { Ok(value) } else { Err(Self::OutOfRange { name, value, unit, range }) }
     }
+}
+
+/// Numbers with commas between them.
+fn list(numbers: &[f64]) -> String {
+    numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")
 }

@@ -5,6 +5,7 @@ mod affine;
 mod error;
 pub mod error_free;
 mod frame;
+pub mod function;
 mod normal;
 mod point;
 mod quadrature;

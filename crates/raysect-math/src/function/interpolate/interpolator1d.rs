@@ -1,0 +1,122 @@
+use super::super::contract::{Function, finite};
+use super::axis::{Axis, check_values};
+use super::hermite::Hermite;
+use super::{Extrapolation1D, Interpolation1D, slopes};
+use crate::MathError;
+
+/// A curve through values at knots on a line.
+///
+/// Outside the knots it has no value (NaN) unless [`extrapolate`](Self::extrapolate) gives it one.
+///
+/// ```
+/// use raysect_math::function::{Extrapolation1D, Function, Interpolation1D, Interpolator1DArray};
+/// let f = Interpolator1DArray::new(&[0.0, 1.0, 3.0], &[0.0, 1.0, 0.0], Interpolation1D::Linear)?;
+/// assert_eq!((f.evaluate(2.0), f.derivative(2.0, 1)), (0.5, -0.5));
+/// assert_eq!(f.checked(4.0).unwrap_err().to_string(), "x = 4 is outside the range 0 … 3 of the interpolator");
+/// let f = f.extrapolate(Extrapolation1D::Nearest, 2.0)?;
+/// assert_eq!((f.evaluate(5.0), f.evaluate(5.5).is_nan()), (0.0, true));
+/// # Ok::<(), raysect_math::MathError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interpolator1DArray {
+    axis: Axis,
+    values: Vec<f64>,
+    /// At the knots; empty for straight lines.
+    slopes: Vec<f64>,
+    extrapolation: Extrapolation1D,
+}
+
+impl Interpolator1DArray {
+    /// Through the values `f` at the knots `x`.
+    ///
+    /// # Errors
+    /// Fewer than two knots, knots that do not ascend, another number of values than of knots, and numbers that are not
+    /// finite: [`MathError::TooFewKnots`], [`MathError::KnotsNotAscending`], [`MathError::TableSize`],
+    /// [`MathError::TableNotFinite`].
+    pub fn new(x: &[f64], f: &[f64], interpolation: Interpolation1D) -> Result<Self, MathError> {
+        let axis = Axis::new("x", x)?;
+        check_values(&[x.len()], f)?;
+        let slopes = match interpolation {
+            Interpolation1D::Linear => Vec::new(),
+            Interpolation1D::Cubic => slopes::parabolic(x, f),
+            Interpolation1D::Monotone => slopes::monotone(x, f),
+        };
+        Ok(Self { axis, values: f.to_vec(), slopes, extrapolation: Extrapolation1D::Nearest })
+    }
+
+    /// With values up to `range` beyond the first and last knot [unit of x], infinity for everywhere.
+    ///
+    /// # Errors
+    /// [`MathError::OutOfRange`] for a negative or NaN range.
+    pub fn extrapolate(mut self, extrapolation: Extrapolation1D, range: f64) -> Result<Self, MathError> {
+        self.axis.extend(range)?;
+        self.extrapolation = extrapolation;
+        Ok(self)
+    }
+
+    /// The first and last knot.
+    pub fn domain(&self) -> (f64, f64) {
+        self.axis.domain()
+    }
+
+    /// The derivative of the given order; 0 is the value. NaN where there is no value.
+    ///
+    /// Where pieces meet, that of the piece above counts. The end knots belong to the curve, not to what lies beyond.
+    #[inline]
+    pub fn derivative(&self, x: f64, order: u32) -> f64 {
+        if !self.axis.admits(x) {
+            return f64::NAN;
+        }
+        let (low, high) = self.domain();
+        let cell = self.axis.cell(x);
+        if x < low {
+            return self.beyond(x - low, 0, cell, order);
+        }
+        if x > high {
+            return self.beyond(x - high, self.values.len() - 1, cell, order);
+        }
+        let width = self.axis.width(cell);
+        let t = (x - self.axis.knots()[cell]) / width;
+        let value = |weights: [f64; 2]| weights[0] * self.values[cell] + weights[1] * self.values[cell + 1];
+        let normalised = if self.slopes.is_empty() {
+            value(Hermite::line(t, order).values)
+        } else {
+            let basis = Hermite::cubic(t, order);
+            let [a, b] = basis.slopes;
+            value(basis.values) + width * (a * self.slopes[cell] + b * self.slopes[cell + 1])
+        };
+        normalised / width.powi(order as i32)
+    }
+
+    /// The derivative at `distance` (with its sign) from the end knot `end`, next to which lies the end cell `cell`.
+    fn beyond(&self, distance: f64, end: usize, cell: usize, order: u32) -> f64 {
+        let width = self.axis.width(cell);
+        let secant = (self.values[cell + 1] - self.values[cell]) / width;
+        let (slope, curvature) = match self.extrapolation {
+            Extrapolation1D::Nearest => return if order == 0 { self.values[end] } else { 0.0 },
+            Extrapolation1D::Quadratic if !self.slopes.is_empty() => {
+                (self.slopes[end], (self.slopes[cell + 1] - self.slopes[cell]) / width)
+            }
+            Extrapolation1D::Linear | Extrapolation1D::Quadratic => (secant, 0.0),
+        };
+        match order {
+            0 => self.values[end] + distance * (slope + 0.5 * curvature * distance),
+            1 => slope + curvature * distance,
+            2 => curvature,
+            _ => 0.0,
+        }
+    }
+}
+
+impl Function<f64> for Interpolator1DArray {
+    type Value = f64;
+    #[inline]
+    fn evaluate(&self, x: f64) -> f64 {
+        self.derivative(x, 0)
+    }
+
+    fn checked(&self, x: f64) -> Result<f64, MathError> {
+        self.axis.check(x)?;
+        finite(x, self.evaluate(x))
+    }
+}

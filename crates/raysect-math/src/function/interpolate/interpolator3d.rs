@@ -1,0 +1,112 @@
+use super::super::contract::{Function, finite};
+use super::axis::check_values;
+use super::stencil::StencilAxis;
+use super::{Extrapolation, Interpolation};
+use crate::MathError;
+
+/// A function through values on a grid of x, y and z.
+///
+/// Cubic pieces are made as in [`Interpolator2DArray`](super::Interpolator2DArray), with mixed derivatives of two and
+/// of all three variables. Outside the grid there is no value (NaN) unless [`extrapolate`](Self::extrapolate) gives it
+/// one.
+///
+/// ```
+/// use raysect_math::function::{Arg, Extrapolation, Function, Interpolation, Interpolator3DArray, sample3d};
+/// let axis = (0.0, 1.0, 5);
+/// let ([x, y, z], f) = sample3d(&(Arg::X * Arg::Y - Arg::Z), axis, axis, axis)?;
+/// let f = Interpolator3DArray::new(&x, &y, &z, &f, Interpolation::Linear)?;
+/// let f = f.extrapolate(Extrapolation::Nearest, 0.0, 0.0, 1.0)?;
+/// assert_eq!(f.evaluate((0.5, 0.25, 1.5)), -0.875);
+/// # Ok::<(), raysect_math::MathError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interpolator3DArray {
+    x: StencilAxis,
+    y: StencilAxis,
+    z: StencilAxis,
+    values: Vec<f64>,
+}
+
+impl Interpolator3DArray {
+    /// Through `f[(i * y.len() + j) * z.len() + k]` at `(x[i], y[j], z[k])`.
+    ///
+    /// # Errors
+    /// Fewer than two knots along an axis, knots that do not ascend, another number of values than of points, and
+    /// numbers that are not finite: [`MathError::TooFewKnots`], [`MathError::KnotsNotAscending`],
+    /// [`MathError::TableSize`], [`MathError::TableNotFinite`].
+    pub fn new(
+        x: &[f64],
+        y: &[f64],
+        z: &[f64],
+        f: &[f64],
+        interpolation: Interpolation,
+    ) -> Result<Self, MathError> {
+        let x = StencilAxis::new("x", x, interpolation)?;
+        let y = StencilAxis::new("y", y, interpolation)?;
+        let z = StencilAxis::new("z", z, interpolation)?;
+        check_values(&[x.axis().len(), y.axis().len(), z.axis().len()], f)?;
+        Ok(Self { x, y, z, values: f.to_vec() })
+    }
+
+    /// With values up to a range beyond the first and last knot of each axis [units of x, y and z], infinity for
+    /// everywhere.
+    ///
+    /// # Errors
+    /// [`MathError::OutOfRange`] for a negative or NaN range.
+    pub fn extrapolate(
+        mut self,
+        extrapolation: Extrapolation,
+        range_x: f64,
+        range_y: f64,
+        range_z: f64,
+    ) -> Result<Self, MathError> {
+        self.x.extend(extrapolation, range_x)?;
+        self.y.extend(extrapolation, range_y)?;
+        self.z.extend(extrapolation, range_z)?;
+        Ok(self)
+    }
+
+    /// The first and last knot of each axis.
+    pub fn domain(&self) -> [(f64, f64); 3] {
+        [self.x.axis().domain(), self.y.axis().domain(), self.z.axis().domain()]
+    }
+
+    /// The derivative of the given orders along x, y and z; 0, 0 and 0 is the value. NaN where there is no value.
+    ///
+    /// Where pieces meet, that of the piece above counts.
+    #[inline]
+    pub fn derivative(&self, at: (f64, f64, f64), orders: (u32, u32, u32)) -> f64 {
+        let stencils =
+            (self.x.stencil(at.0, orders.0), self.y.stencil(at.1, orders.1), self.z.stencil(at.2, orders.2));
+        let (Some(a), Some(b), Some(c)) = stencils else { return f64::NAN };
+        let (rows, columns) = (self.y.axis().len(), self.z.axis().len());
+        let mut sum = 0.0;
+        for i in 0..a.count {
+            let plane = (a.first + i) * rows + b.first;
+            for j in 0..b.count {
+                let [values, slopes, mixed] = c.sums(&self.values[(plane + j) * columns + c.first..]);
+                let corner = a.values[i] * b.values[j];
+                let crossed = a.mixed[i] * b.mixed[j];
+                sum += (corner + a.slopes[i] * b.values[j] + a.values[i] * b.slopes[j] + crossed) * values
+                    + corner * slopes
+                    + (a.mixed[i] * b.values[j] + a.values[i] * b.mixed[j] + crossed) * mixed;
+            }
+        }
+        sum
+    }
+}
+
+impl Function<(f64, f64, f64)> for Interpolator3DArray {
+    type Value = f64;
+    #[inline]
+    fn evaluate(&self, at: (f64, f64, f64)) -> f64 {
+        self.derivative(at, (0, 0, 0))
+    }
+
+    fn checked(&self, at: (f64, f64, f64)) -> Result<f64, MathError> {
+        self.x.axis().check(at.0)?;
+        self.y.axis().check(at.1)?;
+        self.z.axis().check(at.2)?;
+        finite(at, self.evaluate(at))
+    }
+}

@@ -1,0 +1,19 @@
+//! Curves and surfaces through values on grids.
+
+mod axis;
+mod hermite;
+mod interpolator1d;
+mod interpolator2d;
+mod interpolator3d;
+mod kind;
+mod slopes;
+mod stencil;
+#[cfg(test)]
+mod tests1d;
+#[cfg(test)]
+mod tests_grid;
+
+pub use interpolator1d::Interpolator1DArray;
+pub use interpolator2d::Interpolator2DArray;
+pub use interpolator3d::Interpolator3DArray;
+pub use kind::{Extrapolation, Extrapolation1D, Interpolation, Interpolation1D};
