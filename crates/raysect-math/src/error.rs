@@ -23,6 +23,29 @@ pub enum MathError {
     /// The matrix has no inverse.
     #[error("the matrix is singular: one of its axes vanishes or lies in the plane of the others")]
     Singular,
+    /// A quaternion of zero length, or with components that are not finite, is no rotation and has no inverse.
+    #[error("the quaternion ({x}, {y}, {z}, {s}) is no rotation: its length must be positive and finite")]
+    NullQuaternion {
+        /// Component along i.
+        x: f64,
+        /// Component along j.
+        y: f64,
+        /// Component along k.
+        z: f64,
+        /// Scalar part.
+        s: f64,
+    },
+    /// The matrix does more than rotate and translate.
+    #[error(
+        "the matrix is no rotation: its axes deviate from right angles and unit length by {deviation} (at most 1e-8), \
+         its determinant is {determinant} (positive)"
+    )]
+    NotRotation {
+        /// The largest difference of the products of its axes from those of unit vectors at right angles.
+        deviation: f64,
+        /// Determinant of the 3×3 part.
+        determinant: f64,
+    },
     /// A matrix element is not a finite number.
     #[error("matrix element [{row}, {column}] = {value} is not finite")]
     NotFinite {
