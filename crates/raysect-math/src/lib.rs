@@ -34,6 +34,10 @@ pub use sampling::hemisphere::{HemisphereCosineSampler, HemisphereUniformSampler
 pub use sampling::sphere::SphereSampler;
 pub use sampling::square::RectangleSampler3D;
 pub use sampling::triangle::TriangleSampler3D;
+pub use sampling::{
+    SphericalRectangleSampler, SphericalTriangleSampler, TargetSphere, TargetedHemisphereSampler,
+    TargetedSphereSampler,
+};
 pub use stats::{Statistics, StatisticsArray, format_with_error};
 pub use transform::{
     extract_rotation, extract_rotation_z_up, extract_translation, from_cylindrical, rotate, rotate_basis,
