@@ -70,6 +70,60 @@ pub enum MathError {
         /// Shape of the other array.
         right: Vec<usize>,
     },
+    /// A polygon cannot have such a vertex.
+    #[error("vertex {vertex} = ({x}, {y}) of the polygon: {reason}")]
+    PolygonVertex {
+        /// Number of the vertex, counted from 0.
+        vertex: usize,
+        /// Its coordinate along x [m]; NaN if there is no vertex.
+        x: f64,
+        /// Its coordinate along y [m]; NaN if there is no vertex.
+        y: f64,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// The outline of a polygon crosses or touches itself.
+    #[error("the edges that leave the vertices {first} and {second} of the polygon cross or touch")]
+    PolygonCrossing {
+        /// Number of the vertex that the one edge leaves.
+        first: usize,
+        /// Number of the vertex that the other edge leaves.
+        second: usize,
+    },
+    /// The triangles of a polygon do not fill it.
+    #[error("the triangles of the polygon cover {covered} m² of {area} m²")]
+    PolygonNotCut {
+        /// Area of the triangles [m²].
+        covered: f64,
+        /// Area of the polygon [m²].
+        area: f64,
+    },
+    /// A vertex, element or value of a mesh is not possible.
+    #[error("{kind} {index} of the mesh: {reason}")]
+    MeshPart {
+        /// What it is: a vertex, a triangle, a tetrahedron or a value.
+        kind: &'static str,
+        /// Its number, counted from 0.
+        index: usize,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// There must be one value for each vertex or element.
+    #[error("{given} values for {needed} {of}: there must be as many")]
+    ValueCount {
+        /// Number of values.
+        given: usize,
+        /// Number of vertices or elements.
+        needed: usize,
+        /// What the values belong to.
+        of: &'static str,
+    },
+    /// A function that is limited to a mesh has no value outside.
+    #[error("{at:?} m lies outside of the mesh, and the function is limited to it")]
+    OutsideMesh {
+        /// Coordinates of the point [m].
+        at: Vec<f64>,
+    },
     /// Two items of a tree have the same number.
     #[error("two items have the id {id}: each needs its own")]
     DuplicateItem {
