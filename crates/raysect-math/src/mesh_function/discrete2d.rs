@@ -71,7 +71,7 @@ impl Discrete2DMesh {
 
 #[cfg(test)]
 mod tests {
-    use super::super::sample_meshes::{Saved, close, grid, on_edges};
+    use super::super::sample_meshes::{Saved, close, grid, on_edges, turned};
     use super::*;
 
     #[test]
@@ -95,6 +95,7 @@ mod tests {
     #[test]
     fn no_point_on_an_edge_or_vertex_is_lost() {
         let (vertices, triangles) = grid(220, 1000.0);
+        let vertices = turned(&vertices);
         let values: Vec<f64> = (0..triangles.len()).map(|i| i as f64).collect();
         assert!(triangles.len() > 90_000);
         let mesh = Discrete2DMesh::new(vertices.clone(), triangles.clone(), values).unwrap();

@@ -73,11 +73,14 @@ impl Discrete3DMesh {
 mod tests {
     use super::super::sample_meshes::cubes;
     use super::*;
-    use crate::Rng;
+    use crate::{Rng, rotate};
 
     #[test]
     fn no_point_on_a_face_an_edge_or_a_vertex_is_lost() {
         let (vertices, tetrahedra) = cubes(26, 100.0);
+        // Points on a slanted border are rounded off it.
+        let turn = rotate(20.0, 30.0, 40.0);
+        let vertices: Vec<Point3D> = vertices.into_iter().map(|p| turn * p).collect();
         assert!(tetrahedra.len() > 100_000);
         let values: Vec<f64> = (0..tetrahedra.len()).map(|i| i as f64).collect();
         let mesh = Discrete3DMesh::new(vertices.clone(), tetrahedra.clone(), values).unwrap();
@@ -98,7 +101,8 @@ mod tests {
         for p in vertices {
             assert!(mesh.evaluate(p.x, p.y, p.z).is_ok(), "{p:?}");
         }
-        assert!(mesh.evaluate(99.0, 101.0, 101.0).is_err());
+        let outside = turn * Point3D::new(99.999_999, 100.5, 100.5);
+        assert!(mesh.evaluate(outside.x, outside.y, outside.z).is_err());
     }
 
     #[test]

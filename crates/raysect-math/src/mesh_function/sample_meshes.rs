@@ -66,6 +66,12 @@ pub(super) fn grid(n: usize, from: f64) -> (Vec<Point2D>, Vec<[u32; 3]>) {
     (vertices, triangles)
 }
 
+/// The mesh turned by 0.5 rad: points on its border are then rounded off it.
+pub(super) fn turned(vertices: &[Point2D]) -> Vec<Point2D> {
+    let (s, c) = 0.5f64.sin_cos();
+    vertices.iter().map(|p| Point2D::new(c * p.x - s * p.y, s * p.x + c * p.y)).collect()
+}
+
 /// Points on the edges of triangles, as near as rounding lets them, and the triangle of each.
 pub(super) fn on_edges(
     vertices: &[Point2D],
