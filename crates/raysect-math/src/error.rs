@@ -23,6 +23,29 @@ pub enum MathError {
     /// The matrix has no inverse.
     #[error("the matrix is singular: one of its axes vanishes or lies in the plane of the others")]
     Singular,
+    /// A quaternion of zero length, or with components that are not finite, is no rotation and has no inverse.
+    #[error("the quaternion ({x}, {y}, {z}, {s}) is no rotation: its length must be positive and finite")]
+    NullQuaternion {
+        /// Component along i.
+        x: f64,
+        /// Component along j.
+        y: f64,
+        /// Component along k.
+        z: f64,
+        /// Scalar part.
+        s: f64,
+    },
+    /// The matrix does more than rotate and translate.
+    #[error(
+        "the matrix is no rotation: its axes deviate from right angles and unit length by {deviation} (at most 1e-8), \
+         its determinant is {determinant} (positive)"
+    )]
+    NotRotation {
+        /// The largest difference of the products of its axes from those of unit vectors at right angles.
+        deviation: f64,
+        /// Determinant of the 3×3 part.
+        determinant: f64,
+    },
     /// A matrix element is not a finite number.
     #[error("matrix element [{row}, {column}] = {value} is not finite")]
     NotFinite {
@@ -46,6 +69,60 @@ pub enum MathError {
         left: Vec<usize>,
         /// Shape of the other array.
         right: Vec<usize>,
+    },
+    /// A polygon cannot have such a vertex.
+    #[error("vertex {vertex} = ({x}, {y}) of the polygon: {reason}")]
+    PolygonVertex {
+        /// Number of the vertex, counted from 0.
+        vertex: usize,
+        /// Its coordinate along x [m]; NaN if there is no vertex.
+        x: f64,
+        /// Its coordinate along y [m]; NaN if there is no vertex.
+        y: f64,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// The outline of a polygon crosses or touches itself.
+    #[error("the edges that leave the vertices {first} and {second} of the polygon cross or touch")]
+    PolygonCrossing {
+        /// Number of the vertex that the one edge leaves.
+        first: usize,
+        /// Number of the vertex that the other edge leaves.
+        second: usize,
+    },
+    /// The triangles of a polygon do not fill it.
+    #[error("the triangles of the polygon cover {covered} m² of {area} m²")]
+    PolygonNotCut {
+        /// Area of the triangles [m²].
+        covered: f64,
+        /// Area of the polygon [m²].
+        area: f64,
+    },
+    /// A vertex, element or value of a mesh is not possible.
+    #[error("{kind} {index} of the mesh: {reason}")]
+    MeshPart {
+        /// What it is: a vertex, a triangle, a tetrahedron or a value.
+        kind: &'static str,
+        /// Its number, counted from 0.
+        index: usize,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// There must be one value for each vertex or element.
+    #[error("{given} values for {needed} {of}: there must be as many")]
+    ValueCount {
+        /// Number of values.
+        given: usize,
+        /// Number of vertices or elements.
+        needed: usize,
+        /// What the values belong to.
+        of: &'static str,
+    },
+    /// A function that is limited to a mesh has no value outside.
+    #[error("{at:?} m lies outside of the mesh, and the function is limited to it")]
+    OutsideMesh {
+        /// Coordinates of the point [m].
+        at: Vec<f64>,
     },
     /// Two items of a tree have the same number.
     #[error("two items have the id {id}: each needs its own")]

@@ -8,7 +8,7 @@ pub fn translate(x: f64, y: f64, z: f64) -> AffineMatrix3D {
 }
 
 /// Sine and cosine of an angle in degrees, exact at multiples of 90°.
-fn sin_cos(degrees: f64) -> (f64, f64) {
+pub(crate) fn sin_cos(degrees: f64) -> (f64, f64) {
     let turn = degrees % 360.0;
     let quarter = (turn / 90.0).round();
     let (s, c) = (turn - 90.0 * quarter).to_radians().sin_cos();

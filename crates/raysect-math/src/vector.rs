@@ -67,7 +67,7 @@ impl Vector3D {
     /// The direction turned by the fraction `t` of the angle from `self` to `other` in their common plane;
     /// the length is interpolated linearly.
     ///
-    /// Exactly opposite directions have no common plane: the turn goes through [`orthogonal`](Self::orthogonal).
+    /// Directions that are opposite to rounding have no common plane: the turn goes through [`orthogonal`](Self::orthogonal).
     /// (K. Shoemake, *Animating rotation with quaternion curves*, SIGGRAPH 1985.)
     ///
     /// # Errors
@@ -76,12 +76,14 @@ impl Vector3D {
         MathError::check((0.0..=1.0).contains(&t), t, "t", "", "0 … 1")?;
         let (a, b) = (self.normalise()?, other.normalise()?);
         let length = self.length() * (1.0 - t) + other.length() * t;
-        let across = b - a * a.dot(b);
-        let side = if across.length() > 0.0 {
+        let same_side = a.dot(b) > 0.0;
+        // Small where a and b lie along one line, with digits that their projections would lose.
+        let between = if same_side { b - a } else { b + a };
+        let side = if between.max_abs() > 8.0 * f64::EPSILON {
             // Twice is enough: nearly parallel directions leave a first remainder that is not quite upright.
-            let across = across.normalise()?;
+            let across = (between - a * a.dot(between)).normalise()?;
             (across - a * a.dot(across)).normalise()?
-        } else if a.dot(b) > 0.0 {
+        } else if same_side {
             return Ok(a * length);
         } else {
             a.orthogonal()?
@@ -260,6 +262,29 @@ mod tests {
     fn a_plane_vector_turns_left() {
         assert_eq!(Vector2D::new(2.0, 0.0).orthogonal().unwrap(), Vector2D::new(0.0, 1.0));
         assert_eq!(Vector2D::new(1.0, 2.0).cross(Vector2D::new(3.0, 5.0)), -1.0);
+    }
+
+    #[test]
+    fn slerp_is_finite_for_parallel_opposite_tiny_and_huge_vectors() {
+        for a in [Vector3D::X, Vector3D::new(0.1, -0.7, 0.3), Vector3D::new(1.0, 1.0, 1.0)] {
+            let o = a.orthogonal().unwrap();
+            for shift in [0.0, 1e-300, 1e-17, 1e-16, 1e-15, 1e-12, 1e-8, 1e-3] {
+                for (sign, scale) in [(1.0, 1.0), (-1.0, 1.0), (1.0, 1e-300), (-1.0, 1e300)] {
+                    let b = (a * sign + o * shift) * scale;
+                    let angle = a.angle(b).unwrap();
+                    for t in [0.0, 1e-9, 0.5, 1.0] {
+                        let v = a.slerp(b, t).unwrap();
+                        assert!(v.is_finite(), "{a:?} {b:?} {t}");
+                        assert!((v.angle(a).unwrap() - t * angle).abs() < 1e-13, "{a:?} {b:?} {t}");
+                        assert!(a.lerp(b, t).unwrap().is_finite());
+                    }
+                }
+            }
+        }
+        for t in [-0.1, 1.1, f64::NAN] {
+            assert!(Vector3D::X.slerp(Vector3D::Y, t).is_err() && Vector3D::X.lerp(Vector3D::Y, t).is_err());
+        }
+        assert!(Vector3D::X.slerp(Vector3D::ZERO, 0.5).is_err());
     }
 
     proptest! {

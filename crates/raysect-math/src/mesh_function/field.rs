@@ -1,0 +1,39 @@
+use std::sync::Arc;
+
+use crate::MathError;
+
+/// The values on a mesh, and what holds outside of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Field {
+    values: Arc<[f64]>,
+    /// Without one, there is no value outside.
+    pub(super) default: Option<f64>,
+}
+
+impl Field {
+    /// As many finite values as there are vertices or elements.
+    pub(super) fn new(values: Vec<f64>, needed: usize, of: &'static str) -> Result<Self, MathError> {
+        if values.len() != needed {
+            return Err(MathError::ValueCount { given: values.len(), needed, of });
+        }
+        if let Some(index) = values.iter().position(|v| !v.is_finite()) {
+            let reason = format!("{} is not finite", values[index]);
+            return Err(MathError::MeshPart { kind: "value", index, reason });
+        }
+        Ok(Self { values: values.into(), default: None })
+    }
+
+    #[inline]
+    pub(super) fn value(&self, index: u32) -> f64 {
+        self.values[index as usize]
+    }
+
+    /// What holds at a point that no element contains. There is nothing at NaN.
+    #[cold]
+    pub(super) fn outside(&self, at: &[f64]) -> Result<f64, MathError> {
+        match self.default {
+            Some(value) if !at.iter().any(|x| x.is_nan()) => Ok(value),
+            _ => Err(MathError::OutsideMesh { at: at.to_vec() }),
+        }
+    }
+}
