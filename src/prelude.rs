@@ -16,4 +16,4 @@ pub use crate::optical::{
     Material, Materials, NullMaterial, Path, PathSettings, Ray, Scatter, Sellmeier, SpectralFunction,
     SpectralTable, Spectrum, SurfaceHit, UniformSurfaceEmitter, WithMaterial, World,
 };
-pub use crate::primitive::{Cone, Cuboid, Cylinder, Parabola, Sphere};
+pub use crate::primitive::{Cone, Cuboid, Cylinder, Parabola, Sphere, Torus};

@@ -199,6 +199,16 @@ fn check_sampling(
         let hit = shape.hit(&ray, Interval::AHEAD, &mut scratch)?;
         Some((hit, shape.surface(&ray, &hit)))
     };
+    // Points of a shape that is not convex may be chosen behind others: all that lie in a direction count.
+    let (mut scratch_of_all, mut crossings) = (Scratch::default(), Vec::new());
+    let counted = if shape.is_convex() { 1 } else { usize::MAX };
+    let mut hits_along = |direction: Vector3D| -> Vec<(Crossing, Surface)> {
+        let ray = Ray::new(from, direction);
+        crossings.clear();
+        shape.crossings(&ray, &mut scratch_of_all, &mut crossings);
+        let ahead = crossings.iter().filter(|c| c.distance >= 0.0).take(counted);
+        ahead.map(|c| (*c, shape.surface(&ray, c))).collect()
+    };
     // The density of a direction integrates to one over the sphere of directions about `from`.
     let cone = (sphere.radius / from.distance_to(sphere.centre)).min(1.0);
     let cosine = (1.0 - cone * cone).sqrt();
@@ -213,29 +223,41 @@ fn check_sampling(
     if kind == SurfaceSampling::None {
         return Ok(());
     }
-    let (mut sum, mut squares, mut hits) = (0.0, 0.0, 0);
+    let density_along = |direction: Vector3D, hits: &[(Crossing, Surface)]| -> f64 {
+        let of_point = |(hit, surface): &(Crossing, Surface)| {
+            let cosine = surface.normal.dot(direction).abs();
+            let squared = from.vector_to(surface.point).length_squared();
+            shape.surface_density(from, surface.point, hit.feature) * squared / cosine
+        };
+        match kind {
+            SurfaceSampling::SolidAngle if hits.is_empty() => 0.0,
+            SurfaceSampling::SolidAngle => shape.direction_density(from, direction),
+            _ => hits.iter().map(of_point).sum(),
+        }
+    };
+    let (mut sum, mut squares, mut met, mut refused) = (0.0, 0.0, 0, 0);
     let solid_angle = std::f64::consts::TAU * (1.0 - cosine);
     let tries = 20_000.max(count);
     for _ in 0..tries {
         let direction = turn(rng);
-        let density = first_hit(direction).map_or(0.0, |(hit, surface)| {
-            hits += 1;
-            if kind == SurfaceSampling::SolidAngle {
-                return shape.direction_density(from, direction);
-            }
-            let cosine = surface.normal.dot(direction).abs();
-            let squared = from.vector_to(surface.point).length_squared();
-            shape.surface_density(from, surface.point, hit.feature) * squared / cosine
-        });
-        let x = density * solid_angle;
+        let hits = hits_along(direction);
+        met += usize::from(!hits.is_empty());
+        // A shape that is not convex may refuse draws; they count with their probability.
+        let u = [rng.uniform(), rng.uniform(), rng.uniform()];
+        let refuses =
+            !shape.is_convex() && kind == SurfaceSampling::Area && shape.sample_surface(from, u).is_none();
+        refused += usize::from(refuses);
+        let x = density_along(direction, &hits) * solid_angle + f64::from(u8::from(refuses));
         sum += x;
         squares += x * x;
     }
     let n = tries as f64;
     let (mean, error) = (sum / n, ((squares / n - (sum / n).powi(2)).max(0.0) / n).sqrt());
-    // A needle is hit too seldom to tell.
-    if hits >= 100 && (mean - 1.0).abs() > 5.0 * error + 1e-9 {
-        return Err(format!("the sampling density integrates to {mean} ± {error}"));
+    // A shape that hardly any direction meets is too thin to judge in this way.
+    if met >= 100 && ((mean - 1.0).abs() > 5.0 * error + 1e-9 || refused == tries) {
+        return Err(format!(
+            "the sampling density integrates to {mean} ± {error}, {refused} of {tries} draws refused"
+        ));
     }
     for _ in 0..count {
         let u = [rng.uniform(), rng.uniform(), rng.uniform()];

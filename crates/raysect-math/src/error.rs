@@ -69,6 +69,18 @@ pub enum MathError {
         /// What the stream says; `UnexpectedEof` if it ends.
         kind: std::io::ErrorKind,
     },
+    /// A root can only be found between places where the signs of a function differ.
+    #[error("f({low}) = {at_low} and f({high}) = {at_high} do not enclose a root: their signs must differ")]
+    NoSignChange {
+        /// The lower place.
+        low: f64,
+        /// The value there.
+        at_low: f64,
+        /// The upper place.
+        high: f64,
+        /// The value there.
+        at_high: f64,
+    },
     /// A parameter lies outside its range.
     #[error("{name} = {value}{}{unit} is outside its range {range}", if unit.is_empty() { "" } else { " " })]
     OutOfRange {

@@ -3,11 +3,13 @@
 
 mod affine;
 mod error;
+pub mod error_free;
 mod frame;
 mod normal;
 mod point;
 mod quadrature;
 mod random;
+mod roots;
 pub mod sampling;
 pub mod spatial;
 mod stats;
@@ -23,6 +25,7 @@ pub use normal::Normal3D;
 pub use point::{Point2D, Point3D};
 pub use quadrature::integrate;
 pub use random::{Rng, Stratum, StreamKey};
+pub use roots::{Bracket, Roots, find_root, solve_cubic, solve_quadratic, solve_quartic};
 pub use sampling::cone::{Cone, ConeCosineSampler, ConeUniformSampler};
 pub use sampling::disk::DiskSampler3D;
 pub use sampling::hemisphere::{HemisphereCosineSampler, HemisphereUniformSampler};

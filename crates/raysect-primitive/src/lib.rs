@@ -28,6 +28,7 @@ pub mod mesh;
 mod parabola;
 mod revolution;
 mod sphere;
+mod torus;
 
 #[cfg(test)]
 mod double_double;
@@ -41,3 +42,4 @@ pub use error::PrimitiveError;
 pub use mesh::{Mesh, MeshBuilder, MeshData, MeshError, MeshHealth};
 pub use parabola::Parabola;
 pub use sphere::Sphere;
+pub use torus::Torus;
