@@ -28,4 +28,24 @@ pub enum PrimitiveError {
     /// A mesh or its file is wrong.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+    /// An operand of a composite encloses nothing: a sheet, or a surface that is not closed.
+    #[error("{shape}: the {position} operand, a {operand}, encloses nothing")]
+    OpenOperand {
+        /// The composite.
+        shape: &'static str,
+        /// "first" or "second".
+        position: &'static str,
+        /// What the operand is.
+        operand: &'static str,
+    },
+    /// The transform of an operand has no inverse.
+    #[error("{shape}: the transform of the {position} operand has no inverse: {source}")]
+    OperandTransform {
+        /// The composite.
+        shape: &'static str,
+        /// "first" or "second".
+        position: &'static str,
+        /// What is wrong with the matrix.
+        source: MathError,
+    },
 }

@@ -21,9 +21,12 @@
 //! [`check_primitive`](raysect_core::testing::check_primitive).
 
 mod cone;
+mod csg;
 mod cuboid;
 mod cylinder;
 mod error;
+mod inner;
+mod lens;
 pub mod mesh;
 mod parabola;
 mod revolution;
@@ -36,9 +39,11 @@ mod double_double;
 mod judges;
 
 pub use cone::Cone;
+pub use csg::{Intersect, Operand, Place, Subtract, Union};
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use error::PrimitiveError;
+pub use lens::{BiConcave, BiConvex, LensFace, Meniscus, PlanoConcave, PlanoConvex};
 pub use mesh::{Mesh, MeshBuilder, MeshData, MeshError, MeshHealth};
 pub use parabola::Parabola;
 pub use sphere::Sphere;

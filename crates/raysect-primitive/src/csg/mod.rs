@@ -1,0 +1,15 @@
+//! Constructive solid geometry: bodies made of two others, nested to any depth.
+
+mod composite;
+mod intersect;
+mod operand;
+mod subtract;
+mod union;
+
+#[cfg(test)]
+mod tests;
+
+pub use intersect::Intersect;
+pub use operand::{Operand, Place};
+pub use subtract::Subtract;
+pub use union::Union;
