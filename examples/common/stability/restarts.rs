@@ -111,7 +111,11 @@ impl Walk<'_> {
             let next = hit.map(|hit| self.scene.finish(&ray, &hit));
             tally.ray();
             if let Some(what) = self.fault(from.as_ref(), &ray, next.as_ref()) {
-                tally.fail(|| format!("{what}: {ray:?} from {from:?} to {next:?}"));
+                let steep = from.map_or(0.0, |s| s.normal.dot(ray.direction));
+                if std::env::var("DBG").is_ok() {
+                    println!("DBG {} {:e} off {:e} steep {steep:e} bound {:e} next {:?}  {what}", self.body.name, self.body.size, self.offset, from.map_or(0.0,|s|s.bound/self.body.size), next.map(|s| (s.distance/self.body.size, s.exiting, s.bound/self.body.size, s.feature)));
+                }
+                tally.fail(|| format!("{what}, {steep:e} steep: {ray:?} from {from:?} to {next:?}"));
                 return;
             }
             let Some(next) = next.filter(|_| tally.rays < rays) else { return };

@@ -239,7 +239,9 @@ impl Primitive for Body {
         if self.is_convex() {
             // A ray that goes inward has entered: it leaves by the nearest far side, however rounding has placed it.
             let line = line.filter(|_| left.inward)?;
-            let distance = scale(line.exit.0).max(0.0);
+            // A line that rounding has placed beside the lens leaves it where it touches it.
+            let touches = line.entry.0 > line.exit.0;
+            let distance = if touches { 0.0 } else { scale(line.exit.0).max(0.0) };
             let feature = Feature { face: line.exit.1 as u32, ..Feature::default() };
             return (distance <= max_distance).then_some(Crossing { distance, feature, exiting: true });
         }
