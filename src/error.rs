@@ -25,6 +25,9 @@ pub enum Error {
     /// An observation.
     #[error(transparent)]
     Observer(#[from] crate::observer::ObserverError),
+    /// A scene that cannot be saved, or a file that is none.
+    #[error(transparent)]
+    Save(#[from] crate::core::save::SaveError),
     /// A file.
     #[error(transparent)]
     File(#[from] crate::observer::file::FileError),

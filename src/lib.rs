@@ -52,6 +52,9 @@
 //! # }
 //! ```
 //!
+//! # Saved and read again
+//! World, cameras and pipelines go into a readable file and come back with every bit; see [`save`].
+//!
 //! # Layers
 //! The crates depend strictly downward and can be used alone: [`math`], [`core`] (geometry without optics),
 //! [`primitive`], [`optical`], [`observer`]. This crate re-exports them and their [`prelude`].
@@ -62,6 +65,7 @@
 
 mod error;
 pub mod prelude;
+pub mod save;
 
 pub use error::{Error, Result};
 pub use raysect_core as core;

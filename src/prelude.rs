@@ -16,4 +16,7 @@ pub use crate::optical::{
     Material, Materials, NullMaterial, Path, PathSettings, Ray, Scatter, Sellmeier, SpectralFunction,
     SpectralTable, Spectrum, SurfaceHit, UniformSurfaceEmitter, WithMaterial, World,
 };
-pub use crate::primitive::{Cone, Cuboid, Cylinder, Parabola, Sphere, Torus};
+pub use crate::primitive::{
+    BiConcave, BiConvex, Cone, Cuboid, Cylinder, Intersect, Meniscus, Mesh, MeshData, Parabola, Place,
+    PlanoConcave, PlanoConvex, Sphere, Subtract, Torus, Union,
+};

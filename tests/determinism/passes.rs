@@ -11,7 +11,7 @@ fn in_parts(case: Case, parts: &[u64], threads: usize) -> Vec<u64> {
         let camera = case.camera(samples).threads(threads).unwrap();
         assert_eq!(pictures.observe(&camera, &world).samples, samples * COUNT as u64);
     }
-    assert_eq!(counts(pictures.rgb.frame()), [parts.iter().sum(); COUNT]);
+    assert_eq!(counts(pictures.rgb.frame()), [parts.iter().sum::<u64>(); COUNT]);
     pictures.bits()
 }
 

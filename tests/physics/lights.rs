@@ -4,7 +4,7 @@ use raysect::core::Node;
 use raysect::math::{AffineMatrix3D, Point3D, Vector3D, rotate, translate};
 use raysect::optical::LightSampling::{BoundingSpheres, Lights, Off};
 use raysect::optical::{Dielectric, Lambert, LightSampling, Optics, WithMaterial, World};
-use raysect::primitive::{Cuboid, Sphere};
+use raysect::primitive::{Cuboid, Sphere, Torus};
 
 use crate::check::{Demand, EVERY, Probe, Reading, accept, agree};
 use crate::irradiance::{ball_factor, box_factor};
@@ -165,6 +165,25 @@ fn ellipsoids_are_aimed_at() {
     let map = translate(0.3, 0.2, 1.0) * shear();
     let world = over_a_plate([Sphere::new(0.8).unwrap().material(lamp()).transform(map)]);
     all_agree("ellipsoid", &world, [150_000, 150_000, 150_000]);
+}
+
+/// A level ring at a height above the plate fills the directions between two angles off the normal,
+/// ∫ 2 sin θ cos θ dθ = sin 2θ sin 2α about the angle θ of the middle of its tube, α to either side.
+#[test]
+fn rings_that_hide_parts_of_themselves() {
+    for (case, major, minor, height, counts) in [
+        ("ring", 0.8, 0.3, 1.0, [150_000, 300_000, 300_000]),
+        ("thin ring", 0.8, 0.02, 1.0, [400_000, 0, 0]),
+        ("wide ring", 30.0, 8.0, 12.0, [150_000, 300_000, 300_000]),
+    ] {
+        let ring = Torus::new(major, minor).unwrap().material(lamp()).transform(translate(0.0, 0.0, height));
+        let (theta, alpha) = (major.atan2(height), (minor / major.hypot(height)).asin());
+        let factor = (2.0 * theta).sin() * (2.0 * alpha).sin();
+        accept_all(case, factor, &over_a_plate([ring]), counts);
+    }
+    let map = translate(0.3, 0.2, 1.2) * rotate(20.0, 70.0, 10.0) * shear();
+    let world = over_a_plate([Torus::new(0.5, 0.2).unwrap().material(lamp()).transform(map)]);
+    all_agree("sheared ring", &world, [150_000, 150_000, 150_000]);
 }
 
 #[test]

@@ -28,17 +28,20 @@
 //! start on a surface say so with [`Leaving`]: nothing is moved off a surface by a small distance.
 
 pub mod accel;
+mod atomic;
 mod bounds;
 pub mod engine;
 mod error;
 mod intersection;
 mod primitive;
 mod ray;
+pub mod save;
 mod scene;
 pub mod testing;
 mod world;
 
 pub use accel::Acceleration;
+pub use atomic::write_atomically;
 pub use bounds::{BoundingBox2D, BoundingBox3D, BoundingSphere3D};
 pub use engine::{Engine, Multicore, Serial};
 pub use error::{CoreError, EngineError};

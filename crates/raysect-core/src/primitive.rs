@@ -5,6 +5,7 @@ use std::sync::Arc;
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D, Vector3D};
 
 use crate::accel::wide::TraversalStack;
+use crate::save::{SaveError, Saved, SceneWriter, save_shared, short_name};
 use crate::{BoundingBox3D, BoundingSphere3D, Interval, Ray};
 
 /// Names the leaf of a composite, the face of a leaf and the place on the face.
@@ -217,6 +218,16 @@ pub trait Primitive: Send + Sync + 'static {
         0.0
     }
 
+    /// What a file needs to know to make it again; see [`save`](crate::save). A composite refers to its parts by
+    /// [`SceneWriter::shared_object`].
+    ///
+    /// # Errors
+    /// [`SaveError::NotSaved`] by default.
+    fn save(&self, _writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let kind = short_name(std::any::type_name::<Self>()).to_owned();
+        Err(SaveError::NotSaved { role: "shape", kind })
+    }
+
     /// What it is, for lists and messages.
     fn kind(&self) -> &'static str {
         let full = std::any::type_name::<Self>();
@@ -269,6 +280,9 @@ impl<P: Primitive + ?Sized> Primitive for Arc<P> {
     }
     fn direction_density(&self, from: Point3D, direction: Vector3D) -> f64 {
         (**self).direction_density(from, direction)
+    }
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        save_shared(self, writer)
     }
     fn kind(&self) -> &'static str {
         (**self).kind()

@@ -2,6 +2,7 @@
 
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D, Rng, Vector3D, rotate, translate};
 
+use crate::save::{SaveError, Saved, SceneWriter};
 use crate::{
     BoundingBox3D, Crossing, Departure, Interval, Primitive, Ray, Scratch, Surface, SurfaceSampling,
 };
@@ -305,6 +306,9 @@ impl Ball {
 }
 
 impl Primitive for Ball {
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("Ball").number("radius", self.radius))
+    }
     fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
         let r = self.radius;
         let mut b = BoundingBox3D::around([Point3D::new(-r, -r, -r), Point3D::new(r, r, r)]);

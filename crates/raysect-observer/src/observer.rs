@@ -2,6 +2,7 @@ use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
 use raysect_core::{Engine, Multicore, NodeId};
 use raysect_math::AffineMatrix3D;
 use raysect_optical::{PathSettings, Slicing, World};
@@ -276,5 +277,44 @@ impl<S: Sensor> Observer<S> {
 
     pub(crate) fn samples_per_observation(&self) -> u64 {
         self.pixel_samples
+    }
+}
+
+/// What it observes and how is saved, its place in the tree included. Where it computes and who watches is a matter of
+/// the program that runs: engine, progress function and cancel token are not saved, and change no bit of a result.
+impl<S: Sensor + Storable> Storable for Observer<S> {
+    const KIND: &'static str = S::KIND;
+
+    fn save(&self, saved: Saved, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let mut saved = self.sensor.save(saved, writer)?.transform("transform", &self.transform);
+        if let Some(parent) = self.parent {
+            saved = saved.reference("parent", writer.node(parent)?);
+        }
+        let saved = saved
+            .numbers("wavelengths", &[self.range.0, self.range.1])
+            .count("spectral_bins", self.bins as u64)
+            .count("spectral_rays", self.rays as u64)
+            .count("pixel_samples", self.pixel_samples)
+            .count("seed", self.seed)
+            .flag("quiet", self.quiet);
+        self.paths.save(saved, writer)
+    }
+
+    fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
+        let [min, max] = entry.array("wavelengths")?;
+        let mut observer = Self::with_sensor(S::load(entry)?)
+            .transform(entry.transform("transform")?)
+            .wavelengths(min, max)
+            .spectral_bins(entry.integer("spectral_bins")?)
+            .spectral_rays(entry.integer("spectral_rays")?)
+            .pixel_samples(entry.count("pixel_samples")?)
+            .seed(entry.count("seed")?)
+            .quiet(entry.flag("quiet")?)
+            .paths(PathSettings::load(entry)?);
+        observer.slicing()?;
+        if entry.has("parent") {
+            observer = observer.parent(entry.node("parent")?);
+        }
+        Ok(observer)
     }
 }

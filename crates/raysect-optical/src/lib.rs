@@ -67,6 +67,7 @@ pub mod library;
 mod material;
 mod path;
 mod ray;
+mod register;
 mod slice;
 mod spectral_function;
 mod spectrum;
@@ -79,6 +80,7 @@ pub use material::{
 };
 pub use path::{LEDGER_NUMBERS, Ledger, LightSampling, Path, PathSettings};
 pub use ray::{Ray, SampledSpectrum};
+pub use register::{MaterialRegistry, OpticalEntry, SavedScene, register};
 pub use slice::{Slice, Slicing, SpectralTable, Table};
 pub use spectral_function::{InterpolatedSf, Sellmeier, SpectralFunction};
 pub use spectrum::{Spectrum, photon_energy};

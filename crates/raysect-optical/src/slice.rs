@@ -4,6 +4,8 @@ use std::fmt;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, OnceLock};
 
+use raysect_core::save::{SaveError, Saved, SceneObject, SceneWriter};
+
 use crate::{OpticalError, SpectralFunction};
 
 /// A spectral function shared by materials. Each slice of the spectrum keeps one table of its bin averages, found
@@ -27,6 +29,14 @@ impl SpectralTable {
     /// The function.
     pub fn function(&self) -> &dyn SpectralFunction {
         &*self.function
+    }
+}
+
+impl SceneObject for SpectralTable {
+    const ROLE: &'static str = "function";
+
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        SpectralFunction::save(&self.function, writer)
     }
 }
 

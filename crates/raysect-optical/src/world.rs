@@ -1,17 +1,20 @@
 //! The world of optics: shapes with materials.
 
+use std::sync::Arc;
+
+use raysect_core::save::{SaveError, Saved, SceneObject, SceneWriter};
 use raysect_core::{Attachment, Instance, Node, NodeId, Primitive};
 
 use crate::illumination::Illumination;
 use crate::{Material, OpticalError};
 
 /// What hangs on a shape in an optical world: its material.
-pub struct Optics(Box<dyn Material>);
+pub struct Optics(pub(crate) Arc<dyn Material>);
 
 impl Optics {
     /// Around a material.
     pub fn new(material: impl Material) -> Self {
-        Self(Box::new(material))
+        Self(Arc::new(material))
     }
 
     /// The material.
@@ -23,6 +26,14 @@ impl Optics {
 impl std::fmt::Debug for Optics {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "Optics({})", self.0.facts().name)
+    }
+}
+
+impl SceneObject for Optics {
+    const ROLE: &'static str = "material";
+
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        writer.shared(&self.0, |material, writer| material.save(writer))
     }
 }
 

@@ -1,5 +1,6 @@
 use std::f64::consts::PI;
 
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{
     BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch,
     Surface, SurfaceSample, SurfaceSampling,
@@ -166,6 +167,10 @@ impl Cone {
 }
 
 impl Primitive for Cone {
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("Cone").number("radius", self.radius).number("height", self.height))
+    }
+
     fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
         rounded_box(m, |axis| {
             let (reach, tip) = (self.radius * disk_reach(m, axis), self.height * m.get(axis, 2));

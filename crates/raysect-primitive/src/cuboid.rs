@@ -1,3 +1,4 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{
     BoundingBox3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch, Surface, SurfaceSample,
     SurfaceSampling,
@@ -241,6 +242,11 @@ impl Primitive for Cuboid {
 
     fn is_solid(&self) -> bool {
         self.sheet.is_none()
+    }
+
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let saved = Saved::new("Cuboid").numbers("lower", &self.lower.to_array());
+        Ok(saved.numbers("upper", &self.upper.to_array()))
     }
 
     fn is_convex(&self) -> bool {

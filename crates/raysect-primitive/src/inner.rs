@@ -2,7 +2,7 @@
 
 /// Answers every question to a shape by what is in its only field.
 macro_rules! answers_by_inner {
-    ($shape:ident) => {
+    ($shape:ident $(, $saved:ident)?) => {
         impl raysect_core::Primitive for $shape {
             fn bounding_box(&self, m: &raysect_math::AffineMatrix3D) -> raysect_core::BoundingBox3D {
                 raysect_core::Primitive::bounding_box(&self.0, m)
@@ -48,6 +48,12 @@ macro_rules! answers_by_inner {
             fn is_convex(&self) -> bool {
                 raysect_core::Primitive::is_convex(&self.0)
             }
+            $(fn save(
+                &self,
+                writer: &mut raysect_core::save::SceneWriter,
+            ) -> Result<raysect_core::save::Saved, raysect_core::save::SaveError> {
+                self.$saved(writer)
+            })?
             fn parts(&self) -> u32 {
                 raysect_core::Primitive::parts(&self.0)
             }

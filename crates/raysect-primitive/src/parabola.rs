@@ -1,5 +1,6 @@
 use std::f64::consts::TAU;
 
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{
     BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch,
     Surface, SurfaceSample, SurfaceSampling,
@@ -178,6 +179,10 @@ impl Parabola {
 }
 
 impl Primitive for Parabola {
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("Parabola").number("radius", self.radius).number("height", self.height))
+    }
+
     fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
         // The most of `across` ρ + `tip` (1 − ρ²/r²) over 0 ≤ ρ ≤ r, with `across` counted at the rim.
         let most = |across: f64, tip: f64| {

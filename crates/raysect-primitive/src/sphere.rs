@@ -1,3 +1,4 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{
     BoundingBox3D, BoundingSphere3D, Crossing, Departure, DirectionSample, Feature, Interval, Primitive, Ray,
     Scratch, Surface, SurfaceSampling,
@@ -135,6 +136,10 @@ impl Primitive for Sphere {
             shading_normal: normal,
             bound: 4.0 * f64::EPSILON * self.radius,
         }
+    }
+
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("Sphere").number("radius", self.radius))
     }
 
     fn is_convex(&self) -> bool {

@@ -1,3 +1,4 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{
     BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch,
     Surface, SurfaceSample, SurfaceSampling,
@@ -84,6 +85,10 @@ impl Torus {
 }
 
 impl Primitive for Torus {
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("Torus").number("major", self.tube.major).number("minor", self.tube.minor))
+    }
+
     fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
         // The circle reaches R times the length of a row's x and y along that axis of the world, the tube r times the
         // length of the whole row.

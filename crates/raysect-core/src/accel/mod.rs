@@ -21,6 +21,8 @@ pub struct TraversalRay {
     pub origin: Point3D,
     /// One over the components of its direction; infinite where a component is 0.
     pub inverse: Vector3D,
+    /// Where it goes.
+    pub direction: Vector3D,
     /// Boxes that end before this distance are passed over; a little below 0 for a ray that leaves a surface.
     pub min: f64,
     /// For each axis, true if the ray meets the upper face first.
@@ -42,7 +44,7 @@ impl TraversalRay {
         let d = ray.direction;
         let inverse = Vector3D::new(1.0 / d.x, 1.0 / d.y, 1.0 / d.z);
         let backward = [inverse.x < 0.0, inverse.y < 0.0, inverse.z < 0.0];
-        Self { origin: ray.origin, inverse, min, backward }
+        Self { origin: ray.origin, inverse, direction: d, min, backward }
     }
 
     /// Distance at which the ray enters the box, if it meets it between `min` and `limit`.

@@ -1,6 +1,7 @@
 //! The scene-graph: a description of the world that compiles into a [`Scene`].
 
 mod node;
+mod saving;
 mod tree;
 
 use std::any::Any;

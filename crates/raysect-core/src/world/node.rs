@@ -52,7 +52,7 @@ impl<A> fmt::Debug for Node<A> {
 }
 
 impl<A> Node<A> {
-    fn new(kind: NodeKind, shape: Option<(Arc<dyn Primitive>, Arc<A>)>) -> Self {
+    pub(super) fn new(kind: NodeKind, shape: Option<(Arc<dyn Primitive>, Arc<A>)>) -> Self {
         Self {
             kind,
             shape,

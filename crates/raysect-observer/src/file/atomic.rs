@@ -1,17 +1,10 @@
-use std::fs::{self, File, Permissions};
-use std::io::{self, BufWriter, ErrorKind, Write};
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::io::{self, Write};
+use std::path::Path;
 
 use super::FileError;
 
-static COUNTER: AtomicU64 = AtomicU64::new(0);
-
-/// Writes a file that at any moment is either the old one or the whole new one.
-///
-/// The bytes go to a temporary file in the same folder, are forced to the disk, and the temporary file then
-/// takes the place of `path`; on failure it is removed and `path` is untouched. Writing is buffered.
-/// An existing file keeps its permissions, and a symbolic link stays a link.
+/// Writes a file that at any moment is either the old one or the whole new one, as
+/// [`raysect_core::write_atomically`] does, with the path in its errors.
 ///
 /// # Errors
 /// [`FileError::Io`], also with whatever `write` returns, and if `path` is read-only or no regular file.
@@ -20,81 +13,14 @@ pub fn write_atomically(
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), FileError> {
     let path = path.as_ref();
-    replace(path, write).map_err(|source| FileError::io(path, source))
-}
-
-fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    let (target, permissions) = target(path)?;
-    let (temporary, file) = Temporary::create(&target)?;
-    let mut writer = BufWriter::new(file);
-    write(&mut writer)?;
-    let file = writer.into_inner().map_err(|error| error.into_error())?;
-    if let Some(permissions) = permissions {
-        file.set_permissions(permissions)?;
-    }
-    file.sync_all()?;
-    drop(file);
-    temporary.rename(&target)
-}
-
-/// The file that is to be replaced, with all links followed, and its permissions if it exists.
-fn target(path: &Path) -> io::Result<(PathBuf, Option<Permissions>)> {
-    let metadata = match fs::metadata(path) {
-        Ok(metadata) => metadata,
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok((path.to_owned(), None)),
-        Err(error) => return Err(error),
-    };
-    if !metadata.is_file() {
-        return Err(io::Error::new(ErrorKind::InvalidInput, "not a regular file"));
-    }
-    if metadata.permissions().readonly() {
-        return Err(io::Error::new(ErrorKind::PermissionDenied, "the file is read-only"));
-    }
-    Ok((fs::canonicalize(path)?, Some(metadata.permissions())))
-}
-
-/// A file that is removed unless it takes the place of another.
-struct Temporary {
-    path: PathBuf,
-    kept: bool,
-}
-
-impl Temporary {
-    fn create(target: &Path) -> io::Result<(Self, File)> {
-        if target.file_name().is_none() {
-            return Err(io::Error::new(ErrorKind::InvalidInput, "the path names no file"));
-        }
-        loop {
-            let number = COUNTER.fetch_add(1, Ordering::Relaxed);
-            let path = target.with_file_name(format!(".raysect-{}-{number}.tmp", std::process::id()));
-            match File::create_new(&path) {
-                Ok(file) => return Ok((Self { path, kept: false }, file)),
-                // Left behind by a process of the same number that was killed.
-                Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(error),
-            }
-        }
-    }
-
-    fn rename(mut self, target: &Path) -> io::Result<()> {
-        fs::rename(&self.path, target)?;
-        self.kept = true;
-        Ok(())
-    }
-}
-
-impl Drop for Temporary {
-    fn drop(&mut self) {
-        if !self.kept {
-            let _ = fs::remove_file(&self.path);
-        }
-    }
+    raysect_core::write_atomically(path, write).map_err(|source| FileError::io(path, source))
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::scratch::Folder;
     use super::*;
+    use std::fs;
 
     #[test]
     fn replaces_the_whole_file() {
@@ -150,7 +76,7 @@ mod tests {
         let folder = Folder::new();
         let (path, link) = (folder.join("a.bin"), folder.join("link"));
         fs::write(&path, b"old").unwrap();
-        fs::set_permissions(&path, Permissions::from_mode(0o640)).unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).unwrap();
         symlink(&path, &link).unwrap();
         write_atomically(&link, |writer| writer.write_all(b"new")).unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"new");

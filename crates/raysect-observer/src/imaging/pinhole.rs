@@ -1,4 +1,5 @@
 use raysect_core::Ray;
+use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
 use raysect_math::{MathError, Point3D, Rng, Vector3D};
 
 use crate::{FrameShape, Observer, ObserverError, Sensor};
@@ -39,22 +40,14 @@ impl Observer<Pinhole> {
     /// Of columns × rows of pixels, with a field of view [deg] across the larger number of them.
     ///
     /// # Errors
-    /// [`ObserverError::Math`] for no pixels, or a field of view outside 0 … 180 degrees.
+    /// [`ObserverError::Math`] for no pixels or 2³² and more, or a field of view outside 0 … 180 degrees.
     pub fn new(pixels: (usize, usize), field_of_view: f64) -> Result<Self, ObserverError> {
         let (columns, rows) = pixels;
-        MathError::check(columns >= 1, columns as f64, "pixels across", "", "1 or more")?;
-        MathError::check(rows >= 1, rows as f64, "pixels down", "", "1 or more")?;
         let admitted = field_of_view > 0.0 && field_of_view < 180.0;
         MathError::check(admitted, field_of_view, "field of view", "deg", "0 … 180, both excluded")?;
         let width = 2.0 * (0.5 * field_of_view.to_radians()).tan();
-        let pitch = width / columns.max(rows) as f64;
-        Ok(Self::with_sensor(Pinhole {
-            columns,
-            rows,
-            pitch,
-            etendue: Etendue::Unknown,
-            cosine_weighted: false,
-        }))
+        let pitch = width / columns.max(rows).max(1) as f64;
+        Ok(Self::with_sensor(Pinhole::of(columns, rows, pitch)?))
     }
 
     /// With the same étendue for every pixel [m² sr], so that power can be measured.
@@ -63,9 +56,7 @@ impl Observer<Pinhole> {
     /// [`ObserverError::Math`] unless it is positive and finite.
     #[doc(alias = "sensitivity")]
     pub fn etendue(mut self, etendue: f64) -> Result<Self, ObserverError> {
-        let admitted = etendue > 0.0 && etendue.is_finite();
-        MathError::check(admitted, etendue, "étendue", "m² sr", "positive and finite")?;
-        self.sensor_mut().etendue = Etendue::Uniform(etendue);
+        self.sensor_mut().set_etendue(Etendue::Uniform(etendue))?;
         Ok(self)
     }
 
@@ -74,9 +65,7 @@ impl Observer<Pinhole> {
     /// # Errors
     /// [`ObserverError::Math`] unless the area is positive and finite.
     pub fn aperture(mut self, area: f64) -> Result<Self, ObserverError> {
-        let admitted = area > 0.0 && area.is_finite();
-        MathError::check(admitted, area, "aperture", "m²", "positive and finite")?;
-        self.sensor_mut().etendue = Etendue::Aperture(area);
+        self.sensor_mut().set_etendue(Etendue::Aperture(area))?;
         Ok(self)
     }
 
@@ -86,15 +75,7 @@ impl Observer<Pinhole> {
     /// [`ObserverError::PixelCount`] for a wrong number of values, [`ObserverError::Math`] for one that is negative
     /// or not finite.
     pub fn etendue_map(mut self, map: Vec<f64>) -> Result<Self, ObserverError> {
-        let expected = self.sensor().shape().pixels();
-        if map.len() != expected {
-            return Err(ObserverError::PixelCount { what: "étendue map", found: map.len(), expected });
-        }
-        for &etendue in &map {
-            let admitted = etendue >= 0.0 && etendue.is_finite();
-            MathError::check(admitted, etendue, "étendue", "m² sr", "0 or more and finite")?;
-        }
-        self.sensor_mut().etendue = Etendue::Map(map);
+        self.sensor_mut().set_etendue(Etendue::Map(map))?;
         Ok(self)
     }
 
@@ -107,6 +88,43 @@ impl Observer<Pinhole> {
 }
 
 impl Pinhole {
+    fn of(columns: usize, rows: usize, pitch: f64) -> Result<Self, ObserverError> {
+        MathError::check(columns >= 1, columns as f64, "pixels across", "", "1 or more")?;
+        MathError::check(rows >= 1, rows as f64, "pixels down", "", "1 or more")?;
+        let fits = columns.checked_mul(rows).is_some_and(|pixels| pixels <= u32::MAX as usize);
+        MathError::check(fits, columns as f64 * rows as f64, "pixels", "", "below 2³²")?;
+        let admitted = pitch > 0.0 && pitch.is_finite();
+        MathError::check(admitted, pitch, "width of a pixel at distance 1", "", "positive and finite")?;
+        Ok(Self { columns, rows, pitch, etendue: Etendue::Unknown, cosine_weighted: false })
+    }
+
+    fn set_etendue(&mut self, etendue: Etendue) -> Result<(), ObserverError> {
+        match &etendue {
+            Etendue::Unknown => {}
+            &Etendue::Uniform(value) => {
+                let admitted = value > 0.0 && value.is_finite();
+                MathError::check(admitted, value, "étendue", "m² sr", "positive and finite")?;
+            }
+            &Etendue::Aperture(area) => {
+                let admitted = area > 0.0 && area.is_finite();
+                MathError::check(admitted, area, "aperture", "m²", "positive and finite")?;
+            }
+            Etendue::Map(map) => {
+                let expected = self.shape().pixels();
+                if map.len() != expected {
+                    let (what, found) = ("étendue map", map.len());
+                    return Err(ObserverError::PixelCount { what, found, expected });
+                }
+                for &value in map {
+                    let admitted = value >= 0.0 && value.is_finite();
+                    MathError::check(admitted, value, "étendue", "m² sr", "0 or more and finite")?;
+                }
+            }
+        }
+        self.etendue = etendue;
+        Ok(())
+    }
+
     /// Place of a pixel's corner of greatest x and y in the plane at distance 1.
     fn corner(&self, pixel: usize) -> (f64, f64) {
         let (column, row) = ((pixel % self.columns) as f64, (pixel / self.columns) as f64);
@@ -179,6 +197,39 @@ impl Sensor for Pinhole {
     }
 }
 
+impl Storable for Pinhole {
+    const KIND: &'static str = "Pinhole";
+
+    fn save(&self, saved: Saved, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let saved = saved
+            .count("columns", self.columns as u64)
+            .count("rows", self.rows as u64)
+            .number("pitch", self.pitch)
+            .flag("cosine_weighted", self.cosine_weighted);
+        Ok(match &self.etendue {
+            Etendue::Unknown => saved,
+            Etendue::Uniform(etendue) => saved.number("etendue", *etendue),
+            Etendue::Aperture(area) => saved.number("aperture", *area),
+            Etendue::Map(map) => saved.numbers("etendue_map", map),
+        })
+    }
+
+    fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
+        let (columns, rows) = (entry.integer("columns")?, entry.integer("rows")?);
+        let mut pinhole = Self::of(columns, rows, entry.number("pitch")?)?;
+        pinhole.cosine_weighted = entry.flag("cosine_weighted")?;
+        // Of two the second is left over, and refused as such.
+        if entry.has("etendue") {
+            pinhole.set_etendue(Etendue::Uniform(entry.number("etendue")?))?;
+        } else if entry.has("aperture") {
+            pinhole.set_etendue(Etendue::Aperture(entry.number("aperture")?))?;
+        } else if entry.has("etendue_map") {
+            pinhole.set_etendue(Etendue::Map(entry.numbers("etendue_map")?))?;
+        }
+        Ok(pinhole)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -218,6 +269,8 @@ mod tests {
     #[test]
     fn impossible_cameras_are_refused() {
         assert!(PinholeCamera::new((0, 4), 45.0).is_err());
+        assert!(PinholeCamera::new((1 << 16, 1 << 16), 45.0).is_err());
+        assert!(PinholeCamera::new((usize::MAX, usize::MAX), 45.0).is_err());
         assert!(PinholeCamera::new((4, 4), 180.0).is_err());
         assert!(PinholeCamera::new((4, 4), f64::NAN).is_err());
         let camera = || PinholeCamera::new((2, 2), 45.0).unwrap();

@@ -1,4 +1,5 @@
-use raysect_optical::{Slicing, SpectralTable};
+use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
+use raysect_optical::{OpticalEntry, Slicing, SpectralTable};
 
 use super::{Measurement, Pipeline};
 use crate::Frame;
@@ -45,6 +46,22 @@ pub(super) fn integrate(sample: &Measurement<'_>, filter: Option<&SpectralTable>
     sum * sample.slice.bin_width()
 }
 
+/// A filter as a field, if there is one.
+pub(super) fn save_filter(
+    filter: Option<&SpectralTable>,
+    saved: Saved,
+    writer: &mut SceneWriter,
+) -> Result<Saved, SaveError> {
+    match filter {
+        Some(filter) => Ok(saved.reference("filter", writer.object(filter)?)),
+        None => Ok(saved),
+    }
+}
+
+pub(super) fn load_filter(entry: &Entry<'_>) -> Result<Option<SpectralTable>, SaveError> {
+    entry.has("filter").then(|| entry.function("filter")).transpose()
+}
+
 impl Pipeline for PowerPipeline {
     fn channels(&self, _: &Slicing) -> Vec<String> {
         vec!["power".to_owned()]
@@ -64,5 +81,17 @@ impl Pipeline for PowerPipeline {
 
     fn frame_mut(&mut self) -> &mut Frame {
         &mut self.frame
+    }
+}
+
+impl Storable for PowerPipeline {
+    const KIND: &'static str = "PowerPipeline";
+
+    fn save(&self, saved: Saved, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        save_filter(self.filter.as_ref(), saved, writer)
+    }
+
+    fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
+        Ok(Self { filter: load_filter(entry)?, ..Self::new() })
     }
 }

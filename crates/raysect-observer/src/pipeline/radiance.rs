@@ -1,6 +1,7 @@
+use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
 use raysect_optical::{Slicing, SpectralTable};
 
-use super::power::integrate;
+use super::power::{integrate, load_filter, save_filter};
 use super::{Measurement, Pipeline};
 use crate::Frame;
 
@@ -52,5 +53,17 @@ impl Pipeline for RadiancePipeline {
 
     fn frame_mut(&mut self) -> &mut Frame {
         &mut self.frame
+    }
+}
+
+impl Storable for RadiancePipeline {
+    const KIND: &'static str = "RadiancePipeline";
+
+    fn save(&self, saved: Saved, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        save_filter(self.filter.as_ref(), saved, writer)
+    }
+
+    fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
+        Ok(Self { filter: load_filter(entry)?, ..Self::new() })
     }
 }

@@ -1,5 +1,6 @@
 use std::path::{Path, PathBuf};
 
+use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
 use raysect_math::MathError;
 use raysect_optical::Slicing;
 use raysect_optical::colour::{CieObserver, ciexyz_to_srgb, xyz_to_linear_srgb};
@@ -166,5 +167,37 @@ impl Pipeline for RgbPipeline2D {
             Some(path) => self.save(path.clone()),
             None => Ok(()),
         }
+    }
+}
+
+/// What a file calls the tables of the CIE observer.
+const OBSERVERS: [(&str, CieObserver); 2] =
+    [("1 nm", CieObserver::OneNanometre), ("5 nm", CieObserver::FiveNanometres)];
+
+impl Storable for RgbPipeline2D {
+    const KIND: &'static str = "RgbPipeline2D";
+
+    fn save(&self, saved: Saved, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let table = OBSERVERS.iter().find(|(_, o)| *o == self.observer).map_or("", |(name, _)| name);
+        let mut saved = saved.text("observer", table);
+        saved = match self.exposure {
+            Exposure::Automatic(fraction) => saved.number("unsaturated_fraction", fraction),
+            Exposure::Fixed(sensitivity) => saved.number("sensitivity", sensitivity),
+        };
+        let Some(path) = &self.preview else { return Ok(saved) };
+        match path.to_str() {
+            Some(path) => Ok(saved.text("preview", path)),
+            None => Err(SaveError::NoPlace(format!("the path {}, which is not Unicode,", path.display()))),
+        }
+    }
+
+    fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
+        let mut pipeline = Self::new().observer(entry.choice("observer", &OBSERVERS)?);
+        pipeline = if entry.has("sensitivity") {
+            pipeline.sensitivity(entry.number("sensitivity")?)?
+        } else {
+            pipeline.unsaturated_fraction(entry.number("unsaturated_fraction")?)?
+        };
+        Ok(if entry.has("preview") { pipeline.preview(entry.text("preview")?) } else { pipeline })
     }
 }

@@ -1,3 +1,5 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter};
+
 use super::{Material, Scatter, SurfaceHit};
 use crate::Path;
 
@@ -8,5 +10,9 @@ pub struct AbsorbingSurface;
 impl Material for AbsorbingSurface {
     fn surface(&self, _: &SurfaceHit, _: &mut Path<'_>) -> Scatter {
         Scatter::Absorbed
+    }
+
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("AbsorbingSurface"))
     }
 }

@@ -1,6 +1,7 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter, short_name};
 use raysect_math::MathError;
 
-use super::{Context, Facts, Material, Scatter, SurfaceHit, short_name};
+use super::{Context, Facts, Material, Scatter, SurfaceHit};
 use crate::{OpticalError, Path, SpectralTable, colour};
 
 /// A surface that emits in a pattern of cubes of two radiances, fixed to the space of the shape.
@@ -66,6 +67,17 @@ impl Material for Checkerboard {
     fn facts(&self) -> Facts {
         let name = short_name(std::any::type_name::<Self>());
         Facts { importance: self.importance, emits: true, ..Facts::named(name) }
+    }
+
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let [(first, first_scale), (second, second_scale)] = &self.spectra;
+        Ok(Saved::new("Checkerboard")
+            .number("width", self.width)
+            .reference("first", writer.object(first)?)
+            .number("first_scale", *first_scale)
+            .reference("second", writer.object(second)?)
+            .number("second_scale", *second_scale)
+            .number("importance", self.importance))
     }
 }
 

@@ -1,3 +1,5 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter};
+
 use super::{Coefficients, Facts, Material, Medium, MediumPoint, Refraction, Scatter, SurfaceHit};
 use crate::{OpticalError, Path, Slice, SpectralFunction, SpectralTable};
 
@@ -161,6 +163,17 @@ impl Material for Dielectric {
             raysect_math::MathError::check(admitted, value, "transmission per metre", "", "0 … 1")?;
         }
         Ok(())
+    }
+
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("Dielectric")
+            .text("name", &self.name)
+            .reference("index", writer.object(&self.refraction.index)?)
+            .reference("external_index", writer.object(&self.refraction.external_index)?)
+            .integer("priority", self.refraction.priority.into())
+            .reference("transmission", writer.object(&self.transmission)?)
+            .flag("transmission_only", self.transmission_only)
+            .number("importance", self.importance))
     }
 }
 

@@ -1,4 +1,6 @@
-use super::{Context, Facts, Material, Scatter, SurfaceHit, short_name};
+use raysect_core::save::{SaveError, Saved, SceneWriter, short_name};
+
+use super::{Context, Facts, Material, Scatter, SurfaceHit};
 use crate::{Path, SpectralTable};
 
 /// A surface of uniform radiance: the same from every point, in every direction, on both sides. It reflects nothing.
@@ -36,5 +38,10 @@ impl Material for UniformSurfaceEmitter {
     fn facts(&self) -> Facts {
         let name = short_name(std::any::type_name::<Self>());
         Facts { importance: self.importance, emits: true, ..Facts::named(name) }
+    }
+
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let saved = Saved::new("UniformSurfaceEmitter").reference("spectrum", writer.object(&self.spectrum)?);
+        Ok(saved.number("scale", self.scale).number("importance", self.importance))
     }
 }

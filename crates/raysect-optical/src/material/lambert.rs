@@ -1,5 +1,6 @@
 use std::f64::consts::FRAC_1_PI;
 
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_math::sampling::{hemisphere, uniforms};
 use raysect_math::{Rng, Vector3D};
 
@@ -54,5 +55,9 @@ impl Bsdf for Lambert {
 impl Material for Lambert {
     fn surface(&self, hit: &SurfaceHit, path: &mut Path<'_>) -> Scatter {
         path.scatter(self, hit)
+    }
+
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("Lambert").reference("reflectivity", writer.object(&self.reflectivity)?))
     }
 }

@@ -22,6 +22,7 @@ pub use medium::{Coefficients, Medium, MediumPoint, Refraction};
 pub use null::NullMaterial;
 pub use surface_hit::SurfaceHit;
 
+use raysect_core::save::{SaveError, Saved, SceneObject, SceneWriter, short_name};
 use raysect_math::Vector3D;
 
 use crate::{OpticalError, Path, Slice};
@@ -123,10 +124,25 @@ pub trait Material: Send + Sync + 'static {
     fn check(&self, _slice: &Slice) -> Result<(), OpticalError> {
         Ok(())
     }
+
+    /// What a file needs to know to make it again; see [`raysect_core::save`]. It refers to a
+    /// [`SpectralTable`](crate::SpectralTable) by [`SceneWriter::object`], and to an `Arc` of another material by
+    /// [`SceneWriter::shared_object`].
+    ///
+    /// # Errors
+    /// [`SaveError::NotSaved`] by default.
+    fn save(&self, _writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Err(SaveError::NotSaved { role: "material", kind: self.facts().name })
+    }
 }
 
-pub(crate) fn short_name(full: &'static str) -> &'static str {
-    full.rsplit("::").next().unwrap_or(full)
+/// A material within another one; [`OpticalEntry::material`](crate::OpticalEntry::material) reads it.
+impl SceneObject for dyn Material {
+    const ROLE: &'static str = "material";
+
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Material::save(self, writer)
+    }
 }
 
 impl<M: Material + ?Sized> Material for Arc<M> {
@@ -144,5 +160,8 @@ impl<M: Material + ?Sized> Material for Arc<M> {
     }
     fn check(&self, slice: &Slice) -> Result<(), OpticalError> {
         (**self).check(slice)
+    }
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        writer.shared(self, |material, writer| material.save(writer))
     }
 }

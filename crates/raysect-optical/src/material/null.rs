@@ -1,4 +1,6 @@
-use super::{Facts, Material, Scatter, SurfaceHit, short_name};
+use raysect_core::save::{SaveError, Saved, SceneWriter, short_name};
+
+use super::{Facts, Material, Scatter, SurfaceHit};
 use crate::Path;
 
 /// No material at all: rays go straight on, and nothing fills the volume.
@@ -13,5 +15,9 @@ impl Material for NullMaterial {
 
     fn facts(&self) -> Facts {
         Facts { transparent: true, ..Facts::named(short_name(std::any::type_name::<Self>())) }
+    }
+
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("NullMaterial"))
     }
 }

@@ -1,3 +1,4 @@
+use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
 use raysect_math::MathError;
 
 use crate::OpticalError;
@@ -75,6 +76,35 @@ impl PathSettings {
         let admitted = (0.0..1.0).contains(&weight);
         MathError::check(admitted, weight, "important path weight", "", "0 … 1, without 1")?;
         Ok(Self { important_path_weight: weight, ..self })
+    }
+}
+
+/// What a file calls the ways of looking for light.
+const SAMPLINGS: [(&str, LightSampling); 3] = [
+    ("lights", LightSampling::Lights),
+    ("bounding spheres", LightSampling::BoundingSpheres),
+    ("off", LightSampling::Off),
+];
+
+impl Storable for PathSettings {
+    const KIND: &'static str = "PathSettings";
+
+    fn save(&self, saved: Saved, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let sampling = SAMPLINGS.iter().find(|(_, s)| *s == self.light_sampling).map_or("", |(name, _)| name);
+        Ok(saved
+            .count("max_depth", self.max_depth.into())
+            .number("roulette_threshold", self.roulette_threshold)
+            .text("light_sampling", sampling)
+            .number("important_path_weight", self.important_path_weight))
+    }
+
+    fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
+        let sampling = entry.choice("light_sampling", &SAMPLINGS)?;
+        Ok(Self::default()
+            .max_depth(entry.integer("max_depth")?)
+            .roulette_threshold(entry.number("roulette_threshold")?)?
+            .light_sampling(sampling)
+            .important_path_weight(entry.number("important_path_weight")?)?)
     }
 }
 

@@ -1,5 +1,7 @@
 use std::path::Path;
 
+use raysect_core::save::{SaveError, Saved, SceneWriter};
+
 use super::SpectralFunction;
 use crate::OpticalError;
 use crate::library::table;
@@ -50,12 +52,17 @@ impl InterpolatedSf {
                 return wrong("wavelengths must ascend without repetition");
             }
         }
+        Ok(Self::of(wavelengths, values))
+    }
+
+    /// The integrals follow from wavelengths and values alone, whatever was done to get them.
+    fn of(wavelengths: Vec<f64>, values: Vec<f64>) -> Self {
         let mut integrals = vec![0.0; values.len()];
         for i in 1..values.len() {
             let width = wavelengths[i] - wavelengths[i - 1];
             integrals[i] = integrals[i - 1] + 0.5 * width * (values[i] + values[i - 1]);
         }
-        Ok(Self { wavelengths, values, integrals })
+        Self { wavelengths, values, integrals }
     }
 
     /// From a text file: two columns, wavelength [nm] and value, separated by a comma, semicolon or white space;
@@ -83,14 +90,14 @@ impl InterpolatedSf {
             let what = "its integral must be positive to be normalised";
             return Err(OpticalError::TableShape { wavelengths: n, values: n, what });
         }
-        self.values.iter_mut().chain(&mut self.integrals).for_each(|v| *v /= total);
-        Ok(self)
+        self.values.iter_mut().for_each(|v| *v /= total);
+        Ok(Self::of(self.wavelengths, self.values))
     }
 
     /// The same table with every value multiplied by a factor.
     pub fn scaled(mut self, factor: f64) -> Self {
-        self.values.iter_mut().chain(&mut self.integrals).for_each(|v| *v *= factor);
-        self
+        self.values.iter_mut().for_each(|v| *v *= factor);
+        Self::of(self.wavelengths, self.values)
     }
 
     /// The wavelengths [nm].
@@ -139,6 +146,11 @@ impl SpectralFunction for InterpolatedSf {
         }
         self.primitive(max) - self.primitive(min)
     }
+
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let saved = Saved::new("InterpolatedSf").numbers("wavelengths", &self.wavelengths);
+        Ok(saved.numbers("values", &self.values))
+    }
 }
 
 #[cfg(test)]
@@ -152,6 +164,15 @@ mod tests {
         assert!(message(&[400.0, 500.0], &[1.0, f64::NAN]).contains("entry 1"));
         assert!(message(&[400.0, 500.0], &[1.0]).contains("lengths differ"));
         assert!(InterpolatedSf::new([0.0], [1.0]).is_err() && InterpolatedSf::new([], []).is_err());
+    }
+
+    #[test]
+    fn a_table_is_its_wavelengths_and_values_whatever_was_done_to_it() {
+        let table = InterpolatedSf::new([400.0, 511.0, 633.0, 700.0], [0.1, 0.7, 0.3, 0.9]).unwrap();
+        for changed in [table.clone().scaled(1.0 / 87.1971), table.normalised().unwrap()] {
+            let again = InterpolatedSf::new(changed.wavelengths(), changed.values()).unwrap();
+            assert_eq!(changed, again);
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@ mod sellmeier;
 use std::sync::Arc;
 
 pub use interpolated::InterpolatedSf;
+use raysect_core::save::{SaveError, Saved, SceneWriter, short_name};
 use raysect_math::integrate;
 pub use sellmeier::Sellmeier;
 
@@ -44,6 +45,15 @@ pub trait SpectralFunction: Send + Sync + 'static {
         let edge = |i: usize| min + (max - min) * (i as f64 / bins as f64);
         (0..bins).map(|i| self.average(edge(i), edge(i + 1))).collect()
     }
+
+    /// What a file needs to know to make it again; see [`raysect_core::save`]. Closures cannot be saved.
+    ///
+    /// # Errors
+    /// [`SaveError::NotSaved`] by default.
+    fn save(&self, _writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let kind = short_name(std::any::type_name::<Self>()).to_owned();
+        Err(SaveError::NotSaved { role: "spectral function", kind })
+    }
 }
 
 impl SpectralFunction for f64 {
@@ -55,6 +65,9 @@ impl SpectralFunction for f64 {
     }
     fn average(&self, _: f64, _: f64) -> f64 {
         *self
+    }
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("Constant").number("value", *self))
     }
 }
 
@@ -73,5 +86,8 @@ impl SpectralFunction for Arc<dyn SpectralFunction> {
     }
     fn average(&self, min: f64, max: f64) -> f64 {
         (**self).average(min, max)
+    }
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        writer.shared(self, |function, writer| function.save(writer))
     }
 }

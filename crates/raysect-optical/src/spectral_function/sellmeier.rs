@@ -1,3 +1,4 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_math::MathError;
 
 use super::SpectralFunction;
@@ -42,6 +43,10 @@ impl SpectralFunction for Sellmeier {
     fn evaluate(&self, wavelength: f64) -> f64 {
         let squared = (wavelength * 1e-3).powi(2);
         (1.0 + (0..3).map(|i| self.b[i] * squared / (squared - self.c[i])).sum::<f64>()).sqrt()
+    }
+
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("Sellmeier").numbers("b", &self.b).numbers("c", &self.c))
     }
 }
 

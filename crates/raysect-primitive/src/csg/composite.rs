@@ -1,12 +1,14 @@
 use std::ops::ControlFlow;
 
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{
     BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch, Surface,
 };
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
 use super::Operand;
-use super::operand::{Member, inverse_direction};
+use super::operand::{Member, Probe};
+use super::tie::{Order, TieRule, larger};
 use crate::PrimitiveError;
 
 /// What is made of two bodies A and B.
@@ -39,14 +41,6 @@ impl Operation {
     }
 }
 
-/// Rays flatter than one over this to a surface are not examined for faces that coincide, unless the crossings agree
-/// to rounding as they are.
-const GRAZING: f64 = 16_777_216.0;
-
-/// The boxes of intersections are enlarged by this part of their distance from the origin, which is what the
-/// crossings of rays from some tens of sizes away may lie beside.
-const MARGIN: f64 = 4096.0 * f64::EPSILON;
-
 /// A body made of two others.
 ///
 /// Both operands report all crossings of the whole line, on one scale of distances. Outside both at minus infinity, the
@@ -62,24 +56,33 @@ const MARGIN: f64 = 4096.0 * f64::EPSILON;
 #[derive(Clone)]
 pub(super) struct Composite {
     operation: Operation,
-    a: Member,
-    b: Member,
+    pub(super) a: Member,
+    pub(super) b: Member,
     /// Leaves of A, and of both.
     parts: [u32; 2],
-    reach: f64,
+    /// Greatest coordinate of either operand that enters the arithmetic [m].
+    pub(super) reach: f64,
     convex: bool,
     /// In its own space.
     bounds: BoundingBox3D,
+    /// Boxes that a line must meet for either operand to matter, where to ask saves time.
+    tests: [Option<BoundingBox3D>; 2],
     /// Off in tests that show what it is good for.
     #[cfg(test)]
     pub(super) ties: bool,
 }
 
 impl Composite {
+    /// Adds what is to be saved of both operands.
+    pub(super) fn saved(&self, saved: Saved, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let with_a = self.a.saved(saved, "a", writer)?;
+        self.b.saved(with_a, "b", writer)
+    }
+
     pub(super) fn new(operation: Operation, a: Operand, b: Operand) -> Result<Self, PrimitiveError> {
         let a = Member::new(a, operation.name(), "first")?;
         let b = Member::new(b, operation.name(), "second")?;
-        let parts = [a.shape.parts(), a.shape.parts() + b.shape.parts()];
+        let parts = [a.shape.parts(), a.shape.parts().saturating_add(b.shape.parts())];
         let convex = operation == Operation::Intersect && a.shape.is_convex() && b.shape.is_convex();
         let mut composite = Self {
             operation,
@@ -87,13 +90,28 @@ impl Composite {
             reach: a.reach.max(b.reach),
             convex,
             bounds: BoundingBox3D::EMPTY,
+            tests: [None; 2],
             a,
             b,
             #[cfg(test)]
             ties: true,
         };
         composite.bounds = composite.combined_box(&AffineMatrix3D::IDENTITY);
+        composite.tests = composite.box_tests();
         Ok(composite)
+    }
+
+    /// See `tests`.
+    fn box_tests(&self) -> [Option<BoundingBox3D>; 2] {
+        let (a, b) = (&self.a, &self.b);
+        let of = |member: &Member| member.costly.then_some(member.bounds);
+        let surrounds = b.bounds.contains(a.bounds.lower) && b.bounds.contains(a.bounds.upper);
+        match self.operation {
+            Operation::Union => [of(a), of(b)],
+            // A line through the first operand's box meets a box around it, too.
+            Operation::Subtract => [of(a), of(b).filter(|_| !surrounds)],
+            Operation::Intersect => [Some(self.bounds), None],
+        }
     }
 
     /// From the boxes of the operands under the same map.
@@ -102,48 +120,47 @@ impl Composite {
         match self.operation {
             Operation::Union => a.union(&self.b.bounding_box(m)),
             Operation::Subtract => a,
-            Operation::Intersect => {
-                let mut common = a.intersection(&self.b.bounding_box(m));
-                if !common.is_empty() {
-                    common.pad(MARGIN * common.lower.max_abs().max(common.upper.max_abs()));
-                }
-                common
-            }
+            Operation::Intersect => a.intersection(&self.b.bounding_box(m)),
         }
     }
 
     /// The face of an operand, among those that go through the origin of the ray, which ends what the ray is in.
     #[cold]
     fn leave_at_once(&self, ray: &Ray, departure: &Departure, scratch: &mut Scratch) -> Option<Crossing> {
-        let (a, b) = self.operand_crossings(ray, scratch);
-        let of_b = b.iter().map(|c| self.as_own(c, true));
-        let nearest = (a.iter().copied().chain(of_b))
+        let mut both = scratch.take();
+        self.a.crossings(ray, scratch, &mut both);
+        let first_of_b = both.len();
+        self.b.crossings(ray, scratch, &mut both);
+        let all = both.iter().enumerate().map(|(index, c)| self.as_own(c, index >= first_of_b));
+        let nearest = all
             .filter(|c| c.exiting == departure.inward && c.distance.abs() <= 4.0 * departure.bound)
             .min_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs()));
-        scratch.give_back(a);
-        scratch.give_back(b);
+        scratch.give_back(both);
         nearest.map(|c| Crossing { distance: 0.0, ..c })
-    }
-
-    /// All crossings of both operands; none of the second where they cannot matter.
-    #[inline]
-    fn operand_crossings(&self, ray: &Ray, scratch: &mut Scratch) -> (Vec<Crossing>, Vec<Crossing>) {
-        let inverse = inverse_direction(ray.direction);
-        let (mut a, mut b) = (scratch.take(), scratch.take());
-        self.a.crossings(ray, inverse, scratch, &mut a);
-        if !a.is_empty() || self.operation == Operation::Union {
-            self.b.crossings(ray, inverse, scratch, &mut b);
-        }
-        (a, b)
     }
 
     /// Lends the crossings of the composite one by one, in order.
     #[inline]
     fn visit(&self, ray: &Ray, scratch: &mut Scratch, mut emit: impl FnMut(Crossing) -> ControlFlow<()>) {
-        let (a, b) = self.operand_crossings(ray, scratch);
-        let _ = self.merge(ray, &a, &b, &mut emit);
-        scratch.give_back(b);
-        scratch.give_back(a);
+        let probe = Probe::new(ray);
+        let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut both = scratch.take();
+        if self.tests[0].as_ref().is_none_or(|bounds| probe.meets(bounds, everywhere.0, everywhere.1)) {
+            self.a.crossings(ray, scratch, &mut both);
+        }
+        let first_of_b = both.len();
+        // Where the second operand matters.
+        let (first, last) = match (both.first(), both.last()) {
+            _ if self.operation == Operation::Union => everywhere,
+            (Some(first), Some(last)) => (first.distance, last.distance),
+            _ => return scratch.give_back(both),
+        };
+        if self.tests[1].as_ref().is_none_or(|bounds| probe.meets(bounds, first, last)) {
+            self.b.crossings(ray, scratch, &mut both);
+        }
+        let (a, b) = both.split_at(first_of_b);
+        let _ = self.merge(ray, a, b, &mut emit);
+        scratch.give_back(both);
     }
 
     #[inline]
@@ -154,35 +171,31 @@ impl Composite {
         b: &[Crossing],
         emit: &mut impl FnMut(Crossing) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        if b.is_empty() && self.operation != Operation::Intersect {
-            return a.iter().copied().try_for_each(emit);
+        if b.is_empty() {
+            // Nothing to be taken away or added, or nothing in common.
+            let kept = if self.operation == Operation::Intersect { &[] } else { a };
+            return kept.iter().copied().try_for_each(emit);
         }
-        let ties = TieRule::new(self, ray);
-        let (mut a, mut b) = (a.iter().peekable(), b.iter().peekable());
+        if a.is_empty() {
+            // Only a union comes here.
+            return b.iter().try_for_each(|c| emit(self.as_own(c, true)));
+        }
+        let ties = TieRule::new(self, ray, a, b);
+        let (mut i, mut j) = (0, 0);
         let (mut in_a, mut in_b, mut inside, mut last) = (false, false, false, f64::NEG_INFINITY);
-        loop {
-            let (crossing, of_b) = match (a.peek(), b.peek()) {
-                (None, None) => return ControlFlow::Continue(()),
-                (Some(&&x), Some(&&y)) => match ties.judge(&x, &y) {
-                    Order::First => (x, false),
-                    Order::Second => (y, true),
-                    Order::Together { second } => {
-                        // One of the two speaks for the event; the other only toggles.
-                        if second {
-                            (in_a, _) = (!in_a, a.next())
-                        } else {
-                            (in_b, _) = (!in_b, b.next())
-                        }
-                        if second { (y, true) } else { (x, false) }
-                    }
-                },
-                (Some(&&x), None) => (x, false),
-                (None, Some(&&y)) => (y, true),
+        while i < a.len() || j < b.len() {
+            let order = match (a.get(i), b.get(j)) {
+                (Some(x), Some(y)) => ties.judge(x, y),
+                (Some(_), None) => Order::First,
+                _ => Order::Second,
             };
-            if of_b {
-                (in_b, _) = (!in_b, b.next());
-            } else {
-                (in_a, _) = (!in_a, a.next());
+            let of_b = matches!(order, Order::Second | Order::Together { second: true });
+            let crossing = if of_b { &b[j] } else { &a[i] };
+            if !matches!(order, Order::Second) {
+                (in_a, i) = (!in_a, i + 1);
+            }
+            if !matches!(order, Order::First) {
+                (in_b, j) = (!in_b, j + 1);
             }
             let now = self.operation.apply(in_a, in_b);
             if now == inside {
@@ -190,9 +203,10 @@ impl Composite {
             }
             inside = now;
             // Events come in order; the crossings that speak for them may be swapped by rounding.
-            last = crossing.distance.max(last);
-            emit(Crossing { distance: last, exiting: !now, ..self.as_own(&crossing, of_b) })?;
+            last = larger(crossing.distance, last);
+            emit(Crossing { distance: last, exiting: !now, ..self.as_own(crossing, of_b) })?;
         }
+        ControlFlow::Continue(())
     }
 
     /// A crossing of an operand as one of the composite.
@@ -201,7 +215,8 @@ impl Composite {
         if !of_b {
             return *crossing;
         }
-        let feature = Feature { part: crossing.feature.part + self.parts[0], ..crossing.feature };
+        let feature =
+            Feature { part: crossing.feature.part.saturating_add(self.parts[0]), ..crossing.feature };
         let inverted = self.operation == Operation::Subtract;
         Crossing { feature, exiting: crossing.exiting != inverted, ..*crossing }
     }
@@ -314,62 +329,5 @@ impl Primitive for Composite {
 
     fn parts(&self) -> u32 {
         self.parts[1]
-    }
-}
-
-/// Which of two crossings comes first, one of each operand.
-enum Order {
-    First,
-    Second,
-    /// They are one event, for which the first or the second speaks.
-    Together {
-        second: bool,
-    },
-}
-
-/// Tells crossings apart, or not.
-struct TieRule<'a> {
-    composite: &'a Composite,
-    ray: &'a Ray,
-    /// Length of the direction, and the largest length besides the distance that enters [m].
-    speed: f64,
-    reach: f64,
-}
-
-impl<'a> TieRule<'a> {
-    #[inline]
-    fn new(composite: &'a Composite, ray: &'a Ray) -> Self {
-        let reach = ray.origin.max_abs() + composite.reach;
-        Self { composite, ray, speed: ray.direction.length(), reach }
-    }
-
-    #[inline]
-    fn judge(&self, a: &Crossing, b: &Crossing) -> Order {
-        let gap = (a.distance - b.distance).abs() * self.speed;
-        let lengths = self.reach + a.distance.abs().max(b.distance.abs()) * self.speed;
-        let doubt = (self.composite.a.rounding + self.composite.b.rounding) * lengths;
-        if gap <= GRAZING * doubt
-            && let Some(together) = self.together(a, b, gap, lengths)
-        {
-            return together;
-        }
-        if a.distance <= b.distance { Order::First } else { Order::Second }
-    }
-
-    /// With the slopes of both surfaces. The one that the ray meets more steeply knows better where it is.
-    #[cold]
-    fn together(&self, a: &Crossing, b: &Crossing, gap: f64, lengths: f64) -> Option<Order> {
-        #[cfg(test)]
-        if !self.composite.ties {
-            return None;
-        }
-        let slope = |member: &Member, crossing: &Crossing| {
-            let normal = member.surface(self.ray, crossing).normal;
-            (normal.dot(self.ray.direction) / self.speed).abs()
-        };
-        let (first, second) = (&self.composite.a, &self.composite.b);
-        let (slope_a, slope_b) = (slope(first, a), slope(second, b));
-        let doubt = first.rounding * lengths / slope_a + second.rounding * lengths / slope_b;
-        (gap <= doubt).then_some(Order::Together { second: slope_b > slope_a })
     }
 }

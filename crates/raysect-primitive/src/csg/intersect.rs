@@ -1,3 +1,5 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter};
+
 use super::Operand;
 use super::composite::{Composite, Operation};
 use crate::PrimitiveError;
@@ -33,4 +35,10 @@ impl Intersect {
     }
 }
 
-answers_by_inner!(Intersect);
+impl Intersect {
+    fn saved(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        self.0.saved(Saved::new("Intersect"), writer)
+    }
+}
+
+answers_by_inner!(Intersect, saved);

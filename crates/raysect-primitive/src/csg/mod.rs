@@ -4,6 +4,7 @@ mod composite;
 mod intersect;
 mod operand;
 mod subtract;
+mod tie;
 mod union;
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 use std::sync::Arc;
 
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{BoundingBox3D, Crossing, Primitive, Ray, Scratch, Surface};
-use raysect_math::{AffineMatrix3D, MathError, Normal3D, Vector3D};
+use raysect_math::{AffineMatrix3D, MathError, Normal3D, Point3D};
 
 use crate::PrimitiveError;
 
@@ -51,10 +52,6 @@ pub trait Place: Primitive + Sized {
 
 impl<P: Primitive> Place for P {}
 
-/// How many roundings may act upon a crossing of an operand, in multiples of ε times the lengths that enter: four of
-/// the map to the operand's space for each of some levels of nesting, and those of its own solution.
-const ROUNDINGS: f64 = 32.0;
-
 /// An operand as the composite keeps it.
 #[derive(Clone)]
 pub(super) struct Member {
@@ -62,12 +59,12 @@ pub(super) struct Member {
     to_parent: AffineMatrix3D,
     to_local: AffineMatrix3D,
     in_place: bool,
+    /// True if to find the crossings takes longer than to test the box.
+    pub(super) costly: bool,
     /// Around the operand in the space of the composite.
     pub(super) bounds: BoundingBox3D,
     /// Greatest coordinate that enters the arithmetic [m].
     pub(super) reach: f64,
-    /// Error of a crossing across its surface, in units of the lengths that enter.
-    pub(super) rounding: f64,
     stretch: f64,
     shift: f64,
 }
@@ -89,17 +86,29 @@ impl Member {
         let corner = if bounds.is_empty() { 0.0 } else { bounds.lower.max_abs().max(bounds.upper.max_abs()) };
         let shift = to_parent.origin().max_abs();
         let in_place = to_parent == AffineMatrix3D::IDENTITY;
+        let costly = !in_place || inner.parts() > 1;
         Ok(Self {
+            costly,
             shape: inner,
             to_parent,
             to_local,
             in_place,
             bounds,
             reach: corner.max(shift),
-            rounding: ROUNDINGS * f64::EPSILON * condition(&to_parent, &to_local),
             stretch: (0..3).map(|i| row_sum(&to_parent, i)).fold(0.0, f64::max),
             shift,
         })
+    }
+
+    /// Adds what is to be saved of it, under names that begin with `which`.
+    pub(super) fn saved(
+        &self,
+        saved: Saved,
+        which: &str,
+        writer: &mut SceneWriter,
+    ) -> Result<Saved, SaveError> {
+        let shape = writer.shared_object(&self.shape)?;
+        Ok(saved.reference(which, shape).transform(&format!("{which}_transform"), &self.to_parent))
     }
 
     #[inline]
@@ -114,16 +123,12 @@ impl Member {
         }
     }
 
-    /// Appends every crossing of the line, unless it passes beside the box; `inverse` is one over the direction.
+    /// Appends every crossing of the line.
     #[inline]
-    pub(super) fn crossings(
-        &self,
-        ray: &Ray,
-        inverse: Vector3D,
-        scratch: &mut Scratch,
-        out: &mut Vec<Crossing>,
-    ) {
-        if line_meets(&self.bounds, ray, inverse) {
+    pub(super) fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
+        if self.in_place {
+            self.shape.crossings(ray, scratch, out);
+        } else {
             self.shape.crossings(&self.local(ray), scratch, out);
         }
     }
@@ -138,7 +143,7 @@ impl Member {
         *m * self.to_parent
     }
 
-    pub(super) fn contains(&self, point: raysect_math::Point3D) -> bool {
+    pub(super) fn contains(&self, point: Point3D) -> bool {
         self.shape.contains(self.to_local.transform_point(point))
     }
 
@@ -164,36 +169,35 @@ fn row_sum(m: &AffineMatrix3D, row: usize) -> f64 {
     (0..3).map(|column| m.get(row, column).abs()).sum()
 }
 
-/// By how much rounding grows on the way into a space and back: the norm of |M| |M⁻¹|
-/// (N. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., § 7.2).
-fn condition(m: &AffineMatrix3D, inverse: &AffineMatrix3D) -> f64 {
-    (0..3).map(|i| (0..3).map(|j| m.get(i, j).abs() * row_sum(inverse, j)).sum()).fold(1.0, f64::max)
+/// A line, prepared for tests against boxes.
+pub(super) struct Probe {
+    origin: [f64; 3],
+    inverse: [f64; 3],
 }
 
-/// One over each component of a direction; infinite for zero.
-#[inline]
-pub(super) fn inverse_direction(direction: Vector3D) -> Vector3D {
-    Vector3D::new(1.0 / direction.x, 1.0 / direction.y, 1.0 / direction.z)
-}
-
-/// False if the whole line of the ray passes beside the box.
-#[inline]
-fn line_meets(bounds: &BoundingBox3D, ray: &Ray, inverse: Vector3D) -> bool {
-    let (o, low, high) = (ray.origin, bounds.lower, bounds.upper);
-    let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
-    let slabs =
-        [(o.x, inverse.x, low.x, high.x), (o.y, inverse.y, low.y, high.y), (o.z, inverse.z, low.z, high.z)];
-    for (o, inverse, low, high) in slabs {
-        if inverse.is_infinite() {
-            if o < low || o > high {
-                return false;
-            }
-            continue;
-        }
-        let (a, b) = ((low - o) * inverse, (high - o) * inverse);
-        near = near.max(a.min(b));
-        far = far.min(a.max(b));
+impl Probe {
+    #[inline]
+    pub(super) fn new(ray: &Ray) -> Self {
+        let d = ray.direction;
+        Self { origin: ray.origin.to_array(), inverse: [1.0 / d.x, 1.0 / d.y, 1.0 / d.z] }
     }
-    // Each distance carries three roundings.
-    near <= far + 8.0 * f64::EPSILON * (near.abs() + far.abs())
+
+    /// True if the line meets the box at a distance between `first` and `last`. Comparisons with a NaN, of a line in the
+    /// plane of a face, are false, which drops it.
+    #[inline]
+    pub(super) fn meets(&self, bounds: &BoundingBox3D, first: f64, last: f64) -> bool {
+        let (low, high) = (bounds.lower.to_array(), bounds.upper.to_array());
+        let (mut near, mut far) = (first, last);
+        for axis in 0..3 {
+            let (o, inverse) = (self.origin[axis], self.inverse[axis]);
+            let backward = inverse < 0.0;
+            let a = (if backward { high[axis] } else { low[axis] } - o) * inverse;
+            let b = (if backward { low[axis] } else { high[axis] } - o) * inverse;
+            near = if a > near { a } else { near };
+            far = if b < far { b } else { far };
+        }
+        // Each distance carries three roundings. A line beside a slab that it runs along is infinitely near: NaN here.
+        const SLACK: f64 = 8.0 * f64::EPSILON;
+        near - SLACK * near.abs() <= far + SLACK * far.abs()
+    }
 }

@@ -1,3 +1,5 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter};
+
 use super::Operand;
 use super::composite::{Composite, Operation};
 use crate::PrimitiveError;
@@ -34,4 +36,10 @@ impl Subtract {
     }
 }
 
-answers_by_inner!(Subtract);
+impl Subtract {
+    fn saved(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        self.0.saved(Saved::new("Subtract"), writer)
+    }
+}
+
+answers_by_inner!(Subtract, saved);

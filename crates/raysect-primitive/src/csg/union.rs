@@ -1,3 +1,5 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter};
+
 use super::Operand;
 use super::composite::{Composite, Operation};
 use crate::PrimitiveError;
@@ -34,4 +36,10 @@ impl Union {
     }
 }
 
-answers_by_inner!(Union);
+impl Union {
+    fn saved(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        self.0.saved(Saved::new("Union"), writer)
+    }
+}
+
+answers_by_inner!(Union, saved);

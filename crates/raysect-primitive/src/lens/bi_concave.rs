@@ -1,3 +1,5 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter};
+
 use super::body::{Body, Form};
 use crate::PrimitiveError;
 use crate::inner::answers_by_inner;
@@ -89,4 +91,14 @@ impl BiConcave {
     }
 }
 
-answers_by_inner!(BiConcave);
+impl BiConcave {
+    fn saved(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("BiConcave")
+            .number("diameter", self.diameter())
+            .number("centre_thickness", self.centre_thickness())
+            .number("front_curvature", self.front_curvature())
+            .number("back_curvature", self.back_curvature()))
+    }
+}
+
+answers_by_inner!(BiConcave, saved);

@@ -1,3 +1,5 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter};
+
 use super::body::{Body, Form};
 use crate::PrimitiveError;
 use crate::inner::answers_by_inner;
@@ -88,4 +90,14 @@ impl BiConvex {
     }
 }
 
-answers_by_inner!(BiConvex);
+impl BiConvex {
+    fn saved(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("BiConvex")
+            .number("diameter", self.diameter())
+            .number("centre_thickness", self.centre_thickness())
+            .number("front_curvature", self.front_curvature())
+            .number("back_curvature", self.back_curvature()))
+    }
+}
+
+answers_by_inner!(BiConvex, saved);

@@ -1,3 +1,5 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter};
+
 use super::body::{Body, Form};
 use crate::PrimitiveError;
 use crate::inner::answers_by_inner;
@@ -71,4 +73,13 @@ impl PlanoConcave {
     }
 }
 
-answers_by_inner!(PlanoConcave);
+impl PlanoConcave {
+    fn saved(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("PlanoConcave")
+            .number("diameter", self.diameter())
+            .number("centre_thickness", self.centre_thickness())
+            .number("curvature", self.curvature()))
+    }
+}
+
+answers_by_inner!(PlanoConcave, saved);

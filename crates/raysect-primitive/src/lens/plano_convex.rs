@@ -1,3 +1,5 @@
+use raysect_core::save::{SaveError, Saved, SceneWriter};
+
 use super::body::{Body, Form};
 use crate::PrimitiveError;
 use crate::inner::answers_by_inner;
@@ -68,4 +70,13 @@ impl PlanoConvex {
     }
 }
 
-answers_by_inner!(PlanoConvex);
+impl PlanoConvex {
+    fn saved(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("PlanoConvex")
+            .number("diameter", self.diameter())
+            .number("centre_thickness", self.centre_thickness())
+            .number("curvature", self.curvature()))
+    }
+}
+
+answers_by_inner!(PlanoConvex, saved);

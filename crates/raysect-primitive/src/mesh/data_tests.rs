@@ -76,6 +76,20 @@ fn needles_keep_their_normal_whichever_corner_comes_first() {
 }
 
 #[test]
+fn slivers_between_two_long_edges_keep_their_area() {
+    // By exact arithmetic with the numbers as they are stored; the product of the long edges errs by 1e-8.
+    let corners = [[0.0; 3], [0.3, 0.7, 0.1], [0.3 + 1e-9, 0.7 - 2e-9, 0.1 + 3e-9]];
+    for order in [[0, 1, 2], [1, 2, 0], [2, 0, 1]] {
+        let mesh = MeshData::new(corners, [order]).unwrap();
+        assert!((mesh.triangle_area(0) / 1.380_217_383_864_442_2e-9 - 1.0).abs() < 1e-15);
+        let n = mesh.face_normal(0).unwrap();
+        let expected =
+            Normal3D::new(0.833_202_085_131_247_2, -0.289_809_419_210_274_76, -0.470_940_320_921_818_2);
+        assert!((n - expected).length() < 1e-15, "{:e}", (n - expected).length());
+    }
+}
+
+#[test]
 fn triangles_without_area_are_dropped_on_demand() {
     let corners = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [2.0, 2.0, 2.0], [0.0, 1.0, 0.0]];
     let mesh = MeshData::new(corners, [[0, 1, 2], [0, 1, 3], [3, 3, 1], [3, 3, 3]]).unwrap();

@@ -94,6 +94,34 @@ fn cavities_look_inward_and_neighbours_do_not() {
 }
 
 #[test]
+fn shells_that_touch_are_told_apart() {
+    let big = mesh(cube([0.0; 3])).scaled(3.0).unwrap();
+    let at = |p: [f64; 3], first: usize| {
+        let small = mesh(cube([0.0; 3]));
+        let image = small.vertices().iter().map(|v| [v.x + p[0], v.y + p[1], v.z + p[2]]);
+        let mut triangles = small.triangles().to_vec();
+        triangles.rotate_left(2 * first);
+        MeshData::new(image.collect::<Vec<_>>(), triangles).unwrap()
+    };
+    for axis in 0..3 {
+        for side in [-1.0, 1.0] {
+            // Flush with other faces too, or with none.
+            for (first, along) in (0..6).flat_map(|face| [0.0, 0.3, 2.0, -2.0].map(|along| (face, along))) {
+                let mut place = [along; 3];
+                place[axis] = 4.0 * side;
+                let outside = at(place, first);
+                assert!(both(&big, &outside).health().is_solid(), "{place:?}");
+                assert_eq!(both(&big, &outside.flipped()).health().misdirected_shells, 1, "{place:?}");
+                place[axis] = 2.0 * side;
+                let inside = at(place, first);
+                assert!(both(&big, &inside.clone().flipped()).health().is_solid(), "{place:?}");
+                assert_eq!(both(&big, &inside).health().misdirected_shells, 1, "{place:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn touching_in_an_edge_or_a_corner_is_not_manifold() {
     let a = mesh(cube([0.0; 3]));
     let edge = both(&a, &mesh(cube([2.0, 2.0, 0.0]))).health();

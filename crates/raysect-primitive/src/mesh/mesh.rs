@@ -2,6 +2,7 @@ use std::sync::Arc;
 
 use fearless_simd::{Level, Simd, dispatch};
 use raysect_core::accel::wide::{LeafTest, NO_ITEM, TreeRay, WideTree};
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{BoundingBox3D, Crossing, Departure, Interval, Primitive, Ray, Scratch, Surface};
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D, Vector3D};
 
@@ -318,6 +319,25 @@ impl Primitive for Mesh {
 
     fn is_solid(&self) -> bool {
         self.0.closed
+    }
+
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let data = &self.0.data;
+        let coordinates: Vec<f64> = data.vertices().iter().flat_map(|p| p.to_array()).collect();
+        let numbers =
+            |indices: &[[u32; 3]]| -> Vec<f64> { indices.iter().flatten().map(|&i| f64::from(i)).collect() };
+        let saved = Saved::new("Mesh")
+            .numbers("vertices", &coordinates)
+            .numbers("triangles", &numbers(data.triangles()))
+            .flag("smoothing", self.0.smoothing)
+            .flag("closed", self.0.closed);
+        Ok(match (data.vertex_normals(), data.normal_indices()) {
+            (Some(normals), Some(indices)) => {
+                let components: Vec<f64> = normals.iter().flat_map(|n| n.to_array()).collect();
+                saved.numbers("normals", &components).numbers("normal_indices", &numbers(indices))
+            }
+            _ => saved,
+        })
     }
 }
 

@@ -11,7 +11,7 @@ const BINS: usize = 16;
 const PARALLEL: usize = 2048;
 /// From so many items on the boxes are counted in parallel.
 const PARALLEL_COUNT: usize = 1 << 16;
-/// Below this depth nodes are split by the heuristic, beyond it in the middle: together they bound the stack.
+/// Above this depth nodes are split by the heuristic, below it in the middle, which ends soon.
 const MAX_SAH_DEPTH: usize = 40;
 
 /// A box in the frame of the tree, rounded outward, and its item.
@@ -201,6 +201,7 @@ impl Arena {
         let (nodes, leaves) = (self.nodes.len() as u32, self.leaves.len() as u32);
         let renamed = |c: Child| match c.as_leaf() {
             Some(leaf) => Child::leaf(leaf + leaves),
+            None if c == Child::NONE => c,
             None => Child(c.0 + nodes),
         };
         self.nodes.extend(part.nodes.into_iter().map(|mut node| {
@@ -327,6 +328,16 @@ pub(super) fn round_up(x: f64) -> f32 {
     -round_down(-x)
 }
 
+/// Nodes on the longest way down. Children come after their parents, so that one pass from the back tells.
+fn depth(nodes: &[WideNode], root: Child) -> usize {
+    let mut below = vec![1usize; nodes.len()];
+    for (index, node) in nodes.iter().enumerate().rev() {
+        let inner = node.children.iter().filter(|c| c.as_leaf().is_none() && **c != Child::NONE);
+        below[index] = 1 + inner.map(|c| below[c.0 as usize]).max().unwrap_or(0);
+    }
+    if root.as_leaf().is_some() { 0 } else { below.get(root.0 as usize).copied().unwrap_or(0) }
+}
+
 impl WideTree {
     /// Over the boxes of up to 2³¹ items [m]; empty boxes are left out.
     pub fn new(boxes: &[BoundingBox3D]) -> Self {
@@ -346,6 +357,7 @@ impl WideTree {
         let mut arena = Arena::default();
         let spread = Spread::of(&items);
         let root = arena.build(&mut items, spread, 0);
-        Self { bounds, frame, nodes: arena.nodes, leaves: arena.leaves, root }
+        let depth = depth(&arena.nodes, root);
+        Self { bounds, frame, nodes: arena.nodes, leaves: arena.leaves, root, depth }
     }
 }

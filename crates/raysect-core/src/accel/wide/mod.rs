@@ -9,6 +9,7 @@ mod ray;
 mod walk;
 
 pub use ray::TreeRay;
+pub(in crate::accel) use walk::Waiting;
 pub use walk::{LeafTest, TraversalStack};
 
 use crate::BoundingBox3D;
@@ -30,14 +31,14 @@ struct WideNode {
 }
 
 /// A node or, with the highest bit, a leaf.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 struct Child(u32);
 
 const LEAF_BIT: u32 = 1 << 31;
 
 impl Child {
     /// Fills the places that a node does not need; its box is met by nothing.
-    const NONE: Self = Self(0);
+    const NONE: Self = Self(LEAF_BIT - 1);
 
     fn leaf(index: u32) -> Self {
         Self(index | LEAF_BIT)
@@ -68,6 +69,8 @@ pub struct WideTree {
     nodes: Vec<WideNode>,
     leaves: Vec<[u32; LEAF_ITEMS]>,
     root: Child,
+    /// Nodes on the longest way from the root to a leaf.
+    depth: usize,
 }
 
 impl WideTree {

@@ -1,6 +1,6 @@
 use fearless_simd::{Simd, f32x8, prelude::*};
 
-use super::{Child, TreeRay, WIDTH, WideTree};
+use super::{Child, NO_ITEM, TreeRay, WIDTH, WideTree};
 
 /// What is to be done in the leaves that a ray meets.
 pub trait LeafTest<S: Simd> {
@@ -9,12 +9,13 @@ pub trait LeafTest<S: Simd> {
     fn leaf(&mut self, simd: S, leaf: u32, limit: f32) -> f32;
 }
 
-/// Deepest stack of a walk: 40 levels split by the heuristic and 31 halved, each leaving seven behind.
-const STACK: usize = 512;
+/// A child that waits for its turn, and the distance at which its box is met.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::accel) struct Waiting(Child, f32);
 
 /// Room for one walk, reused.
 #[derive(Debug, Default)]
-pub struct TraversalStack(Vec<(Child, f32)>);
+pub struct TraversalStack(Vec<Waiting>);
 
 /// A ray in every lane.
 struct Lanes<S: Simd> {
@@ -31,8 +32,29 @@ impl WideTree {
         &self,
         simd: S,
         ray: &TreeRay,
-        mut limit: f32,
+        limit: f32,
         stack: &mut TraversalStack,
+        test: &mut T,
+    ) {
+        if stack.0.len() < self.stack_size() {
+            stack.0.resize(self.stack_size(), Waiting::default());
+        }
+        self.walk_in(simd, ray, limit, &mut stack.0, test);
+    }
+
+    /// How many children wait at once at most.
+    pub(in crate::accel) fn stack_size(&self) -> usize {
+        (WIDTH - 1) * self.depth + 1
+    }
+
+    /// The same in room of at least [`stack_size`](Self::stack_size).
+    #[inline(always)]
+    pub(in crate::accel) fn walk_in<S: Simd, T: LeafTest<S>>(
+        &self,
+        simd: S,
+        ray: &TreeRay,
+        mut limit: f32,
+        stack: &mut [Waiting],
         test: &mut T,
     ) {
         let each = |v: [f32; 3]| [0, 1, 2].map(|a| f32x8::splat(simd, v[a]));
@@ -42,10 +64,6 @@ impl WideTree {
             far: each(ray.far),
             min: f32x8::splat(simd, ray.min),
         };
-        if stack.0.is_empty() {
-            stack.0.resize(STACK, (Child::NONE, 0.0));
-        }
-        let stack = &mut stack.0[..];
         let mut height = 0;
         let mut child = self.root;
         'next: loop {
@@ -79,7 +97,7 @@ impl WideTree {
                             stack[at] = stack[at - 1];
                             at -= 1;
                         }
-                        stack[at] = (node.children[lane], first[lane]);
+                        stack[at] = Waiting(node.children[lane], first[lane]);
                         height += 1;
                     }
                     child = node.children[nearest];
@@ -91,12 +109,32 @@ impl WideTree {
                     return;
                 }
                 height -= 1;
-                let (waiting, near) = stack[height];
+                let Waiting(waiting, near) = stack[height];
                 if near <= limit {
                     child = waiting;
                     continue 'next;
                 }
             }
+        }
+    }
+
+    /// Calls `found` with every item in whose box a point may lie.
+    pub(in crate::accel) fn around(&self, point: [f64; 3], mut found: impl FnMut(u32)) {
+        let p = [0, 1, 2].map(|a| self.frame.map(point[a], a));
+        let mut waiting = vec![self.root];
+        while let Some(child) = waiting.pop() {
+            if let Some(leaf) = child.as_leaf() {
+                self.leaves[leaf as usize].iter().filter(|&&i| i != NO_ITEM).for_each(|&i| found(i));
+                continue;
+            }
+            let Some(node) = self.nodes.get(child.0 as usize) else { continue };
+            let holds = |lane: usize| {
+                (0..3).all(|a| {
+                    let within = |side: usize| f64::from(node.planes[side][a][lane]);
+                    p[a] >= within(0) && p[a] <= within(1)
+                })
+            };
+            waiting.extend((0..WIDTH).filter(|&lane| holds(lane)).map(|lane| node.children[lane]));
         }
     }
 }

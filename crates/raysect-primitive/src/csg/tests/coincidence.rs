@@ -63,10 +63,12 @@ fn wrong_lines(body: &Shape, parts: &[[f64; 2]], m: AffineMatrix3D, rays: usize,
     let mut wrong = 0;
     for _ in 0..rays {
         let mut ray = line_through(Point3D::new(0.0, 0.0, 1.0), 1.5, rng);
-        if rng.uniform() < 0.1 {
-            // Flat to the faces that coincide.
-            ray.direction.z *= 10f64.powf(rng.range(-6.0, 0.0));
-            ray.origin.z = rng.range(-0.1, 2.1) - 0.1 * ray.direction.z / ray.direction.length();
+        if rng.uniform() < 0.2 {
+            // Flat to the faces that coincide, through a point of one of them.
+            let [x, y] = [0, 1].map(|_| rng.range(-0.9, 0.9));
+            let target = Point3D::new(x, y, 0.1 * (rng.uniform() * 21.0).floor());
+            ray.direction.z = 10f64.powf(rng.range(-7.0, 0.0)) * ray.direction.length();
+            ray.origin = target - ray.direction * (rng.range(1.0, 8.0) / ray.direction.length());
         }
         let chords: Vec<f64> =
             parts.iter().map(|[a, b]| chord(&ray, [-1.0, -1.0, *a], [1.0, 1.0, *b])).collect();
@@ -151,6 +153,64 @@ fn walls_thicker_than_rounding_are_kept() {
             assert!((all[1].distance - all[0].distance - wall).abs() < 1e-15 + 1e-9 * wall, "{wall} {all:?}");
         }
     }
+}
+
+#[test]
+fn the_steeper_surface_speaks_for_an_event() {
+    // A line that is all but flat to the top of one box meets it where the side of the other stands upright.
+    let mut rng = Rng::new(36);
+    let (low, side) =
+        (cuboid([-1.0, -1.0, -1.0], [1.0, 1.0, 0.0]), cuboid([0.0, -1.0, -1.0], [2.0, 1.0, 1.0]));
+    for _ in 0..1000 {
+        let turned = rotate(rng.range(-180.0, 180.0), rng.range(-90.0, 90.0), 0.0);
+        let back = turned.inverse().unwrap();
+        let tilt = 1e-6;
+        let line =
+            Ray::new(Point3D::new(-0.5, rng.range(-0.9, 0.9), 0.5 * tilt), Vector3D::new(1.0, 0.0, -tilt));
+        let ray = Ray::new(turned * line.origin, turned * line.direction);
+        for (body, part) in [
+            (intersect(&moved(&low, turned), &moved(&side, turned)), 2),
+            (intersect(&moved(&side, turned), &moved(&low, turned)), 0),
+        ] {
+            let first = crossings(&body, &ray)[0];
+            assert!((first.distance - 0.5).abs() < 4e-15, "{first:?}");
+            assert_eq!(first.feature.part / 2 * 2, part, "{first:?}");
+            let normal = back * body.surface(&ray, &first).normal.as_vector();
+            assert!(normal.x < -0.999, "{normal:?}");
+        }
+    }
+}
+
+#[test]
+fn operands_under_uneven_maps_still_touch() {
+    let mut rng = Rng::new(38);
+    for _ in 0..20 {
+        let turn = |rng: &mut Rng| {
+            rotate(rng.range(-180.0, 180.0), rng.range(-90.0, 90.0), rng.range(-180.0, 180.0))
+        };
+        let uneven = turn(&mut rng) * stretch(30.0, 1.0, 1.0 / 30.0) * turn(&mut rng);
+        let upper = moved(&moved(&slab(1.0, 2.0), uneven), uneven.inverse().unwrap());
+        let whole = union(&slab(0.0, 1.0), &upper);
+        assert_eq!(wrong_lines(&whole, &[[0.0, 2.0]], AffineMatrix3D::IDENTITY, 500, &mut rng), 0);
+    }
+}
+
+#[test]
+fn crossings_stay_in_order_where_events_overlap() {
+    // Of a line that is all but flat to the top of a box which ends just before that which is taken off ends, too.
+    let tilt = 1e-6;
+    let (low, side) =
+        (cuboid([-1.0, -1.0, -1.0], [-1e-9, 1.0, 0.0]), cuboid([-2.0, -1.0, -1.0], [0.0, 1.0, 1.0]));
+    let mut rng = Rng::new(37);
+    let mut found = 0;
+    for _ in 0..1000 {
+        let body = subtract(&moved(&low, blurred(1.0, &mut rng)), &side);
+        let from = Point3D::new(-0.5, rng.range(-0.9, 0.9), (0.5 - 10f64.powf(rng.range(-9.0, -7.0))) * tilt);
+        let all = crossings(&body, &Ray::new(from, Vector3D::new(1.0, 0.0, -tilt)));
+        assert!(all.windows(2).all(|w| w[0].distance <= w[1].distance), "{all:?}");
+        found += all.len();
+    }
+    assert!(found > 100);
 }
 
 #[test]

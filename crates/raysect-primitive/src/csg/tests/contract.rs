@@ -1,5 +1,5 @@
-use raysect_core::BoundingBox3D;
 use raysect_core::testing::check_primitive;
+use raysect_core::{BoundingBox3D, World};
 use raysect_math::{MathError, Statistics, sampling};
 
 use super::*;
@@ -38,6 +38,55 @@ fn walls_of_a_hole_face_inward() {
         seen,
         [(2.0, false, 0, -1.0), (2.5, true, 1, 1.0), (3.5, false, 1, -1.0), (4.0, true, 0, 1.0)]
     );
+}
+
+#[test]
+fn bounds_on_errors_know_the_place_of_operands() {
+    let mut rng = Rng::new(10);
+    for (radius, far) in [(1.0, 1e6), (1.0, 0.0), (1e-3, 1e3), (1e6, 1.0)] {
+        let centre = Vector3D::new(0.6, -0.48, 0.64) * far;
+        let ball = share(Sphere::new(radius).unwrap());
+        let placed = share(
+            Union::new(ball.placed(translate(centre.x, centre.y, centre.z)), Sphere::default()).unwrap(),
+        );
+        for _ in 0..1000 {
+            let ray = line_through(Point3D::ORIGIN + centre, radius, &mut rng);
+            for c in crossings(&*placed, &ray).iter().filter(|c| c.feature.part == 0) {
+                let surface = placed.surface(&ray, c);
+                let off = (surface.point - centre).to_vector().length() - radius;
+                assert!(off.abs() <= surface.bound, "{off} {surface:?}");
+                assert!(surface.bound <= 200.0 * f64::EPSILON * (radius + far), "{surface:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_body_that_is_nothing_is_never_hit() {
+    let ball = share(Sphere::new(1.0).unwrap());
+    let nothing = [
+        subtract(&ball, &cuboid([-2.0; 3], [2.0; 3])),
+        intersect(&ball, &moved(&ball, translate(5.0, 0.0, 0.0))),
+        intersect(&cuboid([-1.0; 3], [1.0; 3]), &cuboid([1.0, -1.0, -1.0], [2.0, 1.0, 1.0])),
+    ];
+    for count in [1, 9] {
+        let mut world = World::<()>::new();
+        for body in nothing.iter().cycle().take(3 * count) {
+            world.add(body.clone()).unwrap();
+        }
+        let mut rng = Rng::new(8);
+        for _ in 0..1000 {
+            let ray = line_through(Point3D::ORIGIN, 2.0, &mut rng);
+            assert!(world.hit(&ray).unwrap().is_none());
+        }
+        // And as operands.
+        assert!(
+            crossings(&*subtract(&nothing[1], &ball), &line_through(Point3D::ORIGIN, 1.0, &mut rng))
+                .is_empty()
+        );
+        let same = union(&nothing[1], &ball);
+        assert_eq!(same.bounding_box(&shear()), ball.bounding_box(&shear()));
+    }
 }
 
 #[test]

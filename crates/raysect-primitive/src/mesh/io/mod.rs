@@ -1,8 +1,23 @@
 //! Files of meshes: OBJ, STL, PLY, VTK and Raysect's own RSM.
 //!
-//! Each format has a function that reads and one that writes; [`MeshData::load`] and [`MeshData::save`] choose by the
-//! name of the file, [`MeshData::from_bytes`] reads what is in memory. Lengths are in metres, and what is read is
-//! multiplied by a `scaling`: 0.001 for a file in mm. Faces of more than three corners are cut into triangles.
+//! Each format has a function that reads and one that writes; [`MeshData::load`](super::MeshData::load) and
+//! [`MeshData::save`](super::MeshData::save) choose by the name of the file,
+//! [`MeshData::from_bytes`](super::MeshData::from_bytes) reads what is in memory. Lengths are in metres, and what is
+//! read is multiplied by a `scaling`: 0.001 for a file in mm. Faces of more than three corners are cut into triangles.
+//!
+//! ```
+//! use raysect_primitive::MeshData;
+//! use raysect_primitive::mesh::io::MeshFormat;
+//!
+//! let square = "v 0 0 0\nv 20 0 0\nv 20 20 0\nv 0 20 0\nf 1 2 3 4\n";
+//! let mesh = MeshData::from_bytes(square.as_bytes(), MeshFormat::Obj, 0.001)?;
+//! assert_eq!(mesh.triangles(), [[0, 1, 2], [0, 2, 3]]);
+//! assert!((mesh.health().surface_area - 4e-4).abs() < 1e-18);
+//!
+//! let error = MeshData::from_bytes(b"v 0 0 nan", MeshFormat::Obj, 1.0).unwrap_err();
+//! assert_eq!(error.to_string(), "(bytes): line 1: coordinates of a vertex: nan is not finite");
+//! # Ok::<(), raysect_primitive::MeshError>(())
+//! ```
 //!
 //! A file that breaks the rules of its format is refused with its path and the line or byte, never read halfway, and
 //! memory is claimed only for what is present. The readers are written here: the known crates for OBJ and STL name no

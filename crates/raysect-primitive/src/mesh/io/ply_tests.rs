@@ -55,7 +55,10 @@ fn texts_of_every_make_are_read() {
         format!("{HEADER}{}", ROWS.replace(' ', "\n")),
         format!(
             "{}{ROWS}",
-            HEADER.replace("element vertex", "comment made by hand\nobj_info x\n\nelement vertex")
+            HEADER.replace(
+                "element vertex",
+                "comment made by hand\nobj_info x\n\nCreated by Blender3D 247\nelement vertex"
+            )
         ),
         format!("{}{ROWS}", HEADER.replace("vertex_indices", "vertex_index").replace("float", "float64")),
     ];

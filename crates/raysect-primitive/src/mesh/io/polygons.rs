@@ -102,7 +102,8 @@ impl Polygons {
             let corners = start..outline.end;
             start = outline.end;
             self.check(&corners).map_err(|what| fault(outline.place, what))?;
-            for t in cutter.cut(&self, corners) {
+            let cut = cutter.cut(&self, corners).map_err(|what| fault(outline.place, what))?;
+            for t in cut {
                 triangles.push(t.map(|corner| self.corners[corner]));
                 if !self.corner_normals.is_empty() {
                     indices.push(t.map(|corner| self.corner_normals[corner]));
@@ -144,7 +145,11 @@ struct Cutter {
 
 impl Cutter {
     /// The corners of the triangles of a polygon, by their number among all corners.
-    fn cut(&mut self, polygons: &Polygons, corners: Range<usize>) -> impl Iterator<Item = [usize; 3]> {
+    fn cut(
+        &mut self,
+        polygons: &Polygons,
+        corners: Range<usize>,
+    ) -> Result<impl Iterator<Item = [usize; 3]>, String> {
         let vertex = |corner: usize| polygons.corners[corner];
         let is_triangle = corners.len() == 3;
         self.ring.clear();
@@ -162,8 +167,8 @@ impl Cutter {
         }
         self.places.clear();
         self.places.extend(self.ring.iter().map(|&corner| polygons.vertices[vertex(corner) as usize]));
-        let (cut, _) = self.triangulator.cut(&self.places).as_chunks::<3>();
-        cut.iter().map(|t| t.map(|k| self.ring[k as usize]))
+        let (cut, _) = self.triangulator.cut(&self.places)?.as_chunks::<3>();
+        Ok(cut.iter().map(|t| t.map(|k| self.ring[k as usize])))
     }
 }
 

@@ -10,7 +10,8 @@ use super::polygons::Polygons;
 use super::{read_file, write_file};
 
 const MAGIC: &[u8] = b"RSM";
-/// The share of the mesh's size by which Raysect enlarges the boxes of triangles.
+/// The share of the mesh's size by which the boxes of triangles are enlarged; Raysect takes that of the triangle, and
+/// 1 µm at least.
 const PADDING: f64 = 1e-6;
 
 /// What a Raysect mesh file says of its mesh besides the triangles.

@@ -14,32 +14,36 @@ impl std::fmt::Debug for Triangulator {
     }
 }
 
+/// The most corners of a polygon that is not convex: the effort can grow with their square.
+const MOST_CORNERS: usize = 20_000;
+
 impl Triangulator {
     /// The corners of the triangles of a polygon, in its own sense: always two fewer than the polygon has corners.
     ///
-    /// A convex quadrilateral is cut from its first corner, others by their ears in the plane of the axes that the
-    /// polygon leans on least. Where that leaves corners out, as where the outline crosses itself, all triangles come
-    /// from the first corner: the edges of the outline stay edges, and neighbours stay joined.
-    pub(super) fn cut(&mut self, corners: &[Point3D]) -> &[u32] {
+    /// Convex polygons are cut from their first corner, others by their ears in the plane of the axes that the polygon
+    /// leans on least. Where that leaves corners out, as where the outline crosses itself, all triangles come from the
+    /// first corner: the edges of the outline stay edges, and neighbours stay joined.
+    pub(super) fn cut(&mut self, corners: &[Point3D]) -> Result<&[u32], String> {
         let count = corners.len();
         self.cut.clear();
-        if count > 3 {
-            self.cut_ears(corners);
+        if count > 3
+            && let Some(outline) = flatten(corners).filter(|outline| !is_convex(outline))
+        {
+            if count > MOST_CORNERS {
+                return Err(format!(
+                    "a face of {count} corners that is not convex: {MOST_CORNERS} can be read"
+                ));
+            }
+            self.cut_ears(&outline);
         }
         if self.cut.len() != 3 * count.saturating_sub(2) {
             self.cut.clear();
             self.cut.extend((2..count as u32).flat_map(|k| [0, k - 1, k]));
         }
-        &self.cut
+        Ok(&self.cut)
     }
 
-    fn cut_ears(&mut self, corners: &[Point3D]) {
-        let Some(outline) = flatten(corners) else { return };
-        let is_convex =
-            (0..4).all(|k| turn(outline[k % 4], outline[(k + 1) % 4], outline[(k + 2) % 4]) > 0.0);
-        if outline.len() == 4 && is_convex {
-            return;
-        }
+    fn cut_ears(&mut self, outline: &[[f64; 2]]) {
         let holes: [u32; 0] = [];
         self.ears.earcut(outline.iter().copied(), &holes, &mut self.cut);
         let (triangles, _) = self.cut.as_chunks_mut::<3>();
@@ -50,6 +54,16 @@ impl Triangulator {
             }
         }
     }
+}
+
+/// True if an anticlockwise outline turns left at every corner, and once round in all: it goes forth and back along
+/// an axis once.
+fn is_convex(outline: &[[f64; 2]]) -> bool {
+    let corner = |k: usize| outline[k % outline.len()];
+    let is_forth = |k: usize| corner(k + 1) > corner(k);
+    let all = 0..outline.len();
+    let turnings = all.clone().filter(|&k| is_forth(k) != is_forth(k + 1)).count();
+    turnings == 2 && all.into_iter().all(|k| turn(corner(k), corner(k + 1), corner(k + 2)) > 0.0)
 }
 
 /// A polygon in a plane, anticlockwise and at most of size 2; `None` if it has no area to speak of.
@@ -129,7 +143,7 @@ mod tests {
                         .map(|p| Point3D::new(p.x * scale, p.y * scale, p.z * scale))
                         .collect();
                     corners.rotate_left(first);
-                    let cut = cutter.cut(&corners).to_vec();
+                    let cut = cutter.cut(&corners).unwrap().to_vec();
                     assert_eq!(cut.len(), 3 * (2 * points - 2));
                     let unit: Vec<Point3D> =
                         corners.iter().map(|p| Point3D::new(p.x / scale, p.y / scale, p.z / scale)).collect();
@@ -152,7 +166,7 @@ mod tests {
         let mut cutter = Triangulator::default();
         let corners = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 2.0], [0.0, 2.0]];
         let corners = corners.map(|[x, y]| Point3D::new(x, y, 3.0));
-        let cut = cutter.cut(&corners).to_vec();
+        let cut = cutter.cut(&corners).unwrap().to_vec();
         assert_eq!(cut.len(), 12);
         assert!((signed_area(&corners, &cut, [0.0, 0.0, 1.0]) - 4.0).abs() < 1e-15);
         assert!((0..6).all(|k| cut.contains(&k)));
@@ -162,10 +176,30 @@ mod tests {
     fn hopeless_polygons_keep_their_outline() {
         let mut cutter = Triangulator::default();
         let bow = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| Point3D::new(x, y, 0.0));
-        assert_eq!(cutter.cut(&bow).len(), 6);
+        assert_eq!(cutter.cut(&bow).unwrap().len(), 6);
         let line: Vec<Point3D> = (0..5).map(|k| Point3D::new(f64::from(k), 0.0, 0.0)).collect();
-        assert_eq!(cutter.cut(&line), [0, 1, 2, 0, 2, 3, 0, 3, 4]);
-        assert_eq!(cutter.cut(&[Point3D::ORIGIN; 4]).len(), 6);
-        assert!(cutter.cut(&line[..2]).is_empty());
+        assert_eq!(cutter.cut(&line).unwrap(), [0, 1, 2, 0, 2, 3, 0, 3, 4]);
+        assert_eq!(cutter.cut(&[Point3D::ORIGIN; 4]).unwrap().len(), 6);
+        assert!(cutter.cut(&line[..2]).unwrap().is_empty());
+    }
+
+    #[test]
+    fn convex_polygons_are_cut_from_their_first_corner_however_many_they_have() {
+        let mut cutter = Triangulator::default();
+        for count in [4, 5, 12, 100_000] {
+            let round = |k: usize| (k as f64 / count as f64 * std::f64::consts::TAU).sin_cos();
+            let circle: Vec<Point3D> =
+                (0..count).map(|k| Point3D::new(3.0, round(k).1, round(k).0)).collect();
+            let fan: Vec<u32> = (2..count as u32).flat_map(|k| [0, k - 1, k]).collect();
+            assert!(cutter.cut(&circle).unwrap() == fan.as_slice(), "{count}");
+        }
+        // A pentagram turns left everywhere, but twice round.
+        let tip = |k: i32| (f64::from(k) * 144.0).to_radians().sin_cos();
+        let pentagram: Vec<[f64; 2]> = (0..5).map(|k| [tip(k).1, tip(k).0]).collect();
+        assert!(!is_convex(&pentagram));
+        // Too many corners for the effort of a concave polygon.
+        let (flat, _) = star(10_001, 0.5);
+        assert!(cutter.cut(&flat).unwrap_err().contains("20002 corners"));
+        assert!(cutter.cut(&star(10_000, 0.5).0).is_ok());
     }
 }

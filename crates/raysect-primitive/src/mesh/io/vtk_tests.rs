@@ -114,6 +114,20 @@ fn cells_have_several_arrays() {
     assert_eq!(mesh.corner_normals(1).unwrap()[2].to_array(), [0.0, 0.0, 1.0]);
 }
 
+#[test]
+fn cells_of_many_triangles_do_not_multiply_their_values_without_limit() {
+    let strip = |arrays: usize| {
+        let corners: String = (0..4000).map(|k| format!(" {k}")).collect();
+        let points = "0 0 0\n".repeat(4000);
+        let scalars = "SCALARS a int\n0\n".repeat(arrays);
+        read(format!(
+            "{HEAD}POINTS 4000 int\n{points}TRIANGLE_STRIPS 1 4001\n4000{corners}\nCELL_DATA 1\n{scalars}"
+        ))
+    };
+    assert_eq!(strip(100).unwrap().1[99].values.len(), 3998);
+    assert!(strip(2000).unwrap_err().contains("7996000 values"));
+}
+
 /// A binary file of version 2 or 5, by hand.
 fn binary(has_offsets: bool) -> Vec<u8> {
     let version = if has_offsets { "5.1" } else { "2.0" };

@@ -101,6 +101,8 @@ impl Header {
             let line: Vec<&[u8]> = words(line).collect();
             match line.as_slice() {
                 [] | [b"comment" | b"obj_info", ..] => {}
+                // Early versions of Blender forget to call it a comment.
+                [b"Created", b"by", ..] => {}
                 [b"format", kind, b"1.0"] => encoding = Some(*kind),
                 [b"end_header"] => break,
                 line => header.declare(line, text.line_number()).map_err(|what| text.fault(what))?,

@@ -127,7 +127,7 @@ impl Attributes {
         (kind, tuples, components): (Number, usize, u64),
         is_scalar: bool,
     ) -> Result<(), Fault> {
-        let values = (tuples as u64).checked_mul(components).unwrap_or(u64::MAX);
+        let values = (tuples as u64).saturating_mul(components);
         let count = source.admit(values, "the number of values")?;
         if !(is_scalar && components == 1 && self.place == Some(Place::Cells)) {
             return source.pass_over(count, kind, "a value");

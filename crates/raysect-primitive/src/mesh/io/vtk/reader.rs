@@ -9,6 +9,9 @@ use super::cells::{Cells, LINES, POLYGONS, STRIPS, VERTICES};
 use super::source::{Number, Source};
 use crate::mesh::MeshData;
 
+/// The most values for a byte of the file: a cell of many triangles repeats its own for each.
+const MOST_VALUES: usize = 64;
+
 /// Reads a file section by section.
 #[derive(Debug)]
 pub(super) struct Reader<'a> {
@@ -82,6 +85,11 @@ impl<'a> Reader<'a> {
             self.polygons.normals_of_vertices();
         }
         let Meshed { mesh, polygon_of } = self.polygons.finish(scaling, self.source.fault_at())?;
+        let values = polygon_of.len().saturating_mul(self.attributes.scalars.len());
+        if values > MOST_VALUES.saturating_mul(self.source.size()) {
+            let what = format!("{values} values for all triangles are out of proportion to the file");
+            return Err(self.source.fault(what));
+        }
         let spread = |s: TriangleScalars| {
             let values = polygon_of.iter().map(|&polygon| s.values[cell_of[polygon]]).collect();
             TriangleScalars { name: s.name, values }

@@ -80,6 +80,11 @@ impl<'a> Source<'a> {
         Self { bytes, text: Text::new(bytes), is_binary: false, at: 0 }
     }
 
+    /// Bytes of the file.
+    pub(super) fn size(&self) -> usize {
+        self.bytes.len()
+    }
+
     /// The next line, as it stands.
     pub(super) fn raw_line(&mut self) -> Option<&'a [u8]> {
         let line = self.text.line();

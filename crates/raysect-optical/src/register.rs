@@ -1,0 +1,110 @@
+use std::sync::Arc;
+
+use raysect_core::save::{Entry, MakeError, Registry, SaveError};
+
+use crate::{
+    AbsorbingSurface, Checkerboard, Dielectric, InterpolatedSf, Lambert, Material, NullMaterial, Optics,
+    Sellmeier, SpectralFunction, SpectralTable, UniformSurfaceEmitter,
+};
+
+/// A world of shapes with materials as a file had it, and what was kept with it.
+pub type SavedScene = raysect_core::save::SavedScene<Optics>;
+
+/// Teaches a registry how materials and spectral functions are made.
+///
+/// ```
+/// use raysect_core::save::Registry;
+/// use raysect_optical::{Lambert, MaterialRegistry, OpticalEntry};
+///
+/// let mut registry = Registry::new();
+/// registry.material("Lambert", |entry| Ok(Lambert::new(entry.function("reflectivity")?)));
+/// ```
+pub trait MaterialRegistry {
+    /// Adds a maker of materials of a kind.
+    fn material<M: Material>(
+        &mut self,
+        kind: &str,
+        make: impl Fn(&Entry<'_>) -> Result<M, MakeError> + Send + Sync + 'static,
+    );
+
+    /// Adds a maker of spectral functions of a kind.
+    fn function<F: SpectralFunction>(
+        &mut self,
+        kind: &str,
+        make: impl Fn(&Entry<'_>) -> Result<F, MakeError> + Send + Sync + 'static,
+    );
+}
+
+impl MaterialRegistry for Registry {
+    fn material<M: Material>(
+        &mut self,
+        kind: &str,
+        make: impl Fn(&Entry<'_>) -> Result<M, MakeError> + Send + Sync + 'static,
+    ) {
+        self.object(kind, move |entry| Ok(Arc::new(Optics::new(make(entry)?))));
+    }
+
+    fn function<F: SpectralFunction>(
+        &mut self,
+        kind: &str,
+        make: impl Fn(&Entry<'_>) -> Result<F, MakeError> + Send + Sync + 'static,
+    ) {
+        self.object(kind, move |entry| Ok(Arc::new(SpectralTable::new(make(entry)?))));
+    }
+}
+
+/// Reads what materials are made of.
+pub trait OpticalEntry {
+    /// The function that a field refers to.
+    ///
+    /// # Errors
+    /// As [`Entry::object`].
+    fn function(&self, name: &str) -> Result<SpectralTable, SaveError>;
+
+    /// The other material that a field refers to.
+    ///
+    /// # Errors
+    /// As [`Entry::object`].
+    fn material(&self, name: &str) -> Result<Arc<dyn Material>, SaveError>;
+}
+
+impl OpticalEntry for Entry<'_> {
+    fn function(&self, name: &str) -> Result<SpectralTable, SaveError> {
+        Ok(SpectralTable::clone(&*self.object::<SpectralTable>(name)?))
+    }
+
+    fn material(&self, name: &str) -> Result<Arc<dyn Material>, SaveError> {
+        Ok(self.object::<Optics>(name)?.0.clone())
+    }
+}
+
+/// Teaches a registry how the materials and spectral functions of this crate are made of what a file says.
+pub fn register(registry: &mut Registry) {
+    registry.function("Constant", |entry| Ok(entry.number("value")?));
+    registry.function("InterpolatedSf", |entry| {
+        Ok(InterpolatedSf::new(entry.numbers("wavelengths")?, entry.numbers("values")?)?)
+    });
+    registry.function("Sellmeier", |entry| Ok(Sellmeier::new(entry.array("b")?, entry.array("c")?)?));
+
+    registry.material("AbsorbingSurface", |_| Ok(AbsorbingSurface));
+    registry.material("Checkerboard", |entry| {
+        let first = (entry.function("first")?, entry.number("first_scale")?);
+        let second = (entry.function("second")?, entry.number("second_scale")?);
+        let board = Checkerboard::new(entry.number("width")?)?.spectra(first, second);
+        Ok(board.importance(entry.number("importance")?))
+    });
+    registry.material("Dielectric", |entry| {
+        Ok(Dielectric::new(entry.function("index")?, entry.function("transmission")?)?
+            .named(entry.text("name")?)
+            .external_index(entry.function("external_index")?)
+            .priority(entry.integer("priority")?)
+            .transmission_only(entry.flag("transmission_only")?)
+            .importance(entry.number("importance")?))
+    });
+    registry.material("Lambert", |entry| Ok(Lambert::new(entry.function("reflectivity")?)));
+    registry.material("NullMaterial", |_| Ok(NullMaterial));
+    registry.material("UniformSurfaceEmitter", |entry| {
+        let emitter = UniformSurfaceEmitter::new(entry.function("spectrum")?, entry.number("scale")?);
+        Ok(emitter.importance(entry.number("importance")?))
+    });
+}
