@@ -41,6 +41,15 @@ pub struct Departure {
     pub feature: Feature,
 }
 
+impl Departure {
+    /// Which of two crossings is rather the one that is being left: that on the same face, or else the nearer one.
+    /// A ray along a surface is in doubt far along its way, where it crosses other faces.
+    pub fn prefer(&self, a: &Crossing, b: &Crossing) -> std::cmp::Ordering {
+        let elsewhere = |c: &Crossing| (c.feature.part, c.feature.face) != (self.feature.part, self.feature.face);
+        elsewhere(a).cmp(&elsewhere(b)).then(a.distance.abs().total_cmp(&b.distance.abs()))
+    }
+}
+
 /// The surface at a crossing, in the local space of the shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surface {
@@ -149,8 +158,8 @@ pub trait Primitive: Send + Sync + 'static {
 
     /// The next crossing of a ray that starts on this very surface, up to `max_distance`.
     ///
-    /// The crossing that is being left is recognised by its kind (a ray that goes inward has just entered)
-    /// and by being nearest to the origin, not by an offset; the answer is the one that follows it.
+    /// The crossing that is being left is recognised by its kind (a ray that goes inward has just entered), by its piece
+    /// of the surface and by being nearest to the origin, not by an offset; the answer is the one that follows it.
     fn hit_after(
         &self,
         ray: &Ray,
@@ -164,7 +173,7 @@ pub trait Primitive: Send + Sync + 'static {
             .iter()
             .enumerate()
             .filter(|(_, c)| c.exiting != departure.inward && c.distance.abs() <= departure.bound)
-            .min_by(|a, b| a.1.distance.abs().total_cmp(&b.1.distance.abs()))
+            .min_by(|a, b| departure.prefer(a.1, b.1))
             .map(|(index, _)| index);
         let next = match left {
             Some(index) => all.get(index + 1).copied(),

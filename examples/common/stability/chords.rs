@@ -42,11 +42,11 @@ pub(crate) fn controls() -> Vec<Cell> {
     let shape: Shape = std::sync::Arc::new(Sphere::new(radius * (1.0 + 1e-9 / radius)).unwrap());
     let other = chord("sphere 1 nm larger".to_owned(), shape, radius, 0.0..0.9, LIMIT);
     let body = bodies::named("torus", 1.0);
-    let wrong = body.with_shape(Wrong(body.shape.clone(), Fault::Stretches(1e-12)));
+    let wrong = body.with_shape(Wrong(body.shape.clone(), Fault::Shifts(1e-12)));
     let shape: Shape = std::sync::Arc::new(Sphere::new(radius * (1.0 + 1e-10)).unwrap());
     let (gap, limit) = GRAZING[0];
     let grazing = chord("sphere larger by 1e-10, grazing".to_owned(), shape, radius, 1.0 - gap..1.0 - gap, limit);
-    vec![other, grazing, halves("stretched torus".to_owned(), wrong)]
+    vec![other, grazing, halves("torus 1e-12 off as seen from inside".to_owned(), wrong)]
 }
 
 fn sphere(radius: f64) -> Shape {

@@ -40,7 +40,9 @@ pub(crate) fn controls() -> Vec<Cell> {
 /// crossings 2 S over it.
 fn cell(name: String, body: Body) -> Cell {
     Cell::new(name, SIGMAS, move |rays, tally| {
-        let ball = body.shape.bounding_sphere(&AffineMatrix3D::IDENTITY);
+        // Larger than the body, so that some lines miss it.
+        let mut ball = body.shape.bounding_sphere(&AffineMatrix3D::IDENTITY);
+        ball.radius *= 1.1;
         let mut rng = Rng::new(91);
         let (mut scratch, mut found) = (Scratch::default(), Vec::new());
         let (mut lengths, mut counts) = (Statistics::new(), Statistics::new());

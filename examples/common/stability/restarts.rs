@@ -58,7 +58,7 @@ pub(crate) fn controls() -> Vec<Cell> {
         let wrong = body.with_shape(Wrong(body.shape.clone(), Fault::Forgets));
         cell(format!("forgetful {name}"), wrong, 1e3, Habit::Diffuse, Start::Leaving)
     });
-    let moved = [(1e-9, 0.0), (1.0, 1e8)].map(|(scale, offset)| {
+    let moved = [(1e-10, 0.0), (1.0, 1e8)].map(|(scale, offset)| {
         let name = format!("start moved by 1e-9 m, {scale:e} m, {offset:e} sizes off");
         cell(name, bodies::named("cuboid", scale), offset, Habit::Diffuse, Start::Moved(1e-9))
     });

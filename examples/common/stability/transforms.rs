@@ -65,8 +65,8 @@ pub(crate) fn controls() -> Vec<Cell> {
     let shape = |fault: Fault| Arc::new(Wrong(ball.shape(), fault));
     let tilted = bodies::named("sphere", 1.0);
     let tilted = tilted.with_shape(Wrong(tilted.shape.clone(), Fault::Tilts(1e-6)));
-    let stretched = bodies::named("torus", 1.0);
-    let stretched = stretched.with_shape(Wrong(stretched.shape.clone(), Fault::Stretches(1e-12)));
+    let missing = bodies::named("torus", 1.0);
+    let missing = missing.with_shape(Wrong(missing.shape.clone(), Fault::Misses(100)));
     vec![
         places("bounds without the scale".to_owned(), ball, shape(Fault::Culls(0.8)), m),
         places("distances off by 1e-13".to_owned(), ball, shape(Fault::Stretches(1e-13)), m),
@@ -77,7 +77,7 @@ pub(crate) fn controls() -> Vec<Cell> {
             let like_vector = |n: Vector3D| (m * Vector3D::from(columns.map(|c| c.dot(n)))).normalise_unchecked();
             judge_normals(&bodies::named("cone", 1.0), &m, rays, tally, like_vector);
         }),
-        lengths("stretched".to_owned(), stretched),
+        lengths("one ray in 100 missed".to_owned(), missing),
     ]
 }
 

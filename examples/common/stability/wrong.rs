@@ -12,6 +12,8 @@ pub(crate) enum Fault {
     Forgets,
     /// Sees everything too far by this part of the distance.
     Stretches(f64),
+    /// Sees the exits too far by this part of the size, from inside.
+    Shifts(f64),
     /// Has normals that are tilted by this tangent.
     Tilts(f64),
     /// Misses one line in so many.
@@ -58,6 +60,11 @@ impl<P: Primitive> Primitive for Wrong<P> {
             let before = out.len();
             self.0.crossings(ray, scratch, out);
             out[before..].iter_mut().for_each(|c| *c = self.spoil(*c));
+            if let Fault::Shifts(by) = self.1 {
+                let inside = out[before..].iter().any(|c| c.distance < 0.0);
+                let exits = out[before..].iter_mut().filter(|c| c.exiting && inside);
+                exits.for_each(|c| c.distance += by);
+            }
         }
     }
 

@@ -245,19 +245,13 @@ impl Primitive for Body {
             let feature = Feature { face: line.exit.1 as u32, ..Feature::default() };
             return (distance <= max_distance).then_some(Crossing { distance, feature, exiting: true });
         }
-        let line = line?;
-        let all = line.crossings(scale);
+        let all = line?.crossings(scale);
         let departed = (all.iter().enumerate())
             .filter(|(_, c)| c.exiting != left.inward && c.distance.abs() <= left.bound)
-            .min_by(|a, b| a.1.distance.abs().total_cmp(&b.1.distance.abs()));
+            .min_by(|a, b| left.prefer(&a.1, &b.1));
         let next = match departed {
             Some((index, _)) => all.iter().nth(index + 1),
             None => all.iter().find(|c| c.distance > 0.0),
-        };
-        let next = match next {
-            Some(crossing) if crossing.exiting == left.inward => next,
-            None if !left.inward => next,
-            _ => line.leave_at_once(left, scale).or(next),
         };
         let next = next.map(|c| Crossing { distance: c.distance.max(0.0), ..c });
         next.filter(|c| c.distance <= max_distance)
