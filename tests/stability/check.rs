@@ -16,7 +16,10 @@ pub(crate) fn accept(name: &str) {
     assert!(!cells.is_empty());
     for cell in &cells {
         let tally = cell.run(RAYS);
-        println!("{:<70} {:>8} rays, {} wrong, {:.3e} of {:.1e}", cell.name, tally.rays, tally.failures, tally.worst, tally.limit);
+        println!(
+            "{:<70} {:>8} rays, {} wrong, {:.3e} of {:.1e}",
+            cell.name, tally.rays, tally.failures, tally.worst, tally.limit
+        );
         if !tally.holds() {
             wrong.push(format!("{}: {} of {}, {:?}", cell.name, tally.failures, tally.rays, tally.first));
         }

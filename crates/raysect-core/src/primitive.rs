@@ -45,7 +45,8 @@ impl Departure {
     /// Which of two crossings is rather the one that is being left: that on the same face, or else the nearer one.
     /// A ray along a surface is in doubt far along its way, where it crosses other faces.
     pub fn prefer(&self, a: &Crossing, b: &Crossing) -> std::cmp::Ordering {
-        let elsewhere = |c: &Crossing| (c.feature.part, c.feature.face) != (self.feature.part, self.feature.face);
+        let elsewhere =
+            |c: &Crossing| (c.feature.part, c.feature.face) != (self.feature.part, self.feature.face);
         elsewhere(a).cmp(&elsewhere(b)).then(a.distance.abs().total_cmp(&b.distance.abs()))
     }
 }

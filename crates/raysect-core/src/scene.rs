@@ -78,7 +78,13 @@ impl<A> Instance<A> {
     /// What goes into a solid comes out of it. Where the chord is so thin that rounding hides it, along the surface or
     /// at an edge, it ends where it begins.
     #[inline]
-    fn hit_after(&self, local: &Ray, leaving: &Leaving, limit: f64, scratch: &mut Scratch) -> Option<Crossing> {
+    fn hit_after(
+        &self,
+        local: &Ray,
+        leaving: &Leaving,
+        limit: f64,
+        scratch: &mut Scratch,
+    ) -> Option<Crossing> {
         let departure = &leaving.departure;
         let next = self.primitive.hit_after(local, departure, limit, scratch);
         let fits = next.map_or(!departure.inward, |c| c.exiting == departure.inward);
@@ -183,11 +189,8 @@ impl Leaving {
         // A chord that is thinner than rounding may end where the normal still faces the ray: what goes straight on has
         // passed it all the same.
         let inward = if towards == arrived { !surface.exiting } else { cosine < 0.0 };
-        let departure = Departure {
-            inward,
-            bound: surface.bound / cosine.abs().max(1e-12),
-            feature: surface.feature,
-        };
+        let departure =
+            Departure { inward, bound: surface.bound / cosine.abs().max(1e-12), feature: surface.feature };
         let mut leaving = Self {
             departure,
             grazes: cosine.abs() < GRAZING,

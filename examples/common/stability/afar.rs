@@ -33,7 +33,9 @@ pub(crate) fn cells() -> Vec<Cell> {
             for exponent in 1..=6 {
                 let plain = Plain::Torus(scale, tube * scale);
                 let name = format!("torus {scale:e} m, tube {tube}");
-                cells.push(cell(&name, plain, plain.shape(), exponent, LIMIT).share(0.05).core(exponent % 2 == 0));
+                cells.push(
+                    cell(&name, plain, plain.shape(), exponent, LIMIT).share(0.05).core(exponent % 2 == 0),
+                );
             }
         }
     }

@@ -105,9 +105,13 @@ fn plain() -> Vec<Plan> {
     let slant = 0.6f64.hypot(1.1);
     let dish = PI * 0.6 / 6.0 * ((0.36f64 + 4.0).powf(1.5) - 0.216) + PI * 0.36;
     vec![
-        plan("sphere", |s| Arc::new(Sphere::new(s).unwrap()), [0.0; 3], [4.0 * PI / 3.0, 4.0 * PI], |p| {
-            ball(p, 0.0, 1.0)
-        }),
+        plan(
+            "sphere",
+            |s| Arc::new(Sphere::new(s).unwrap()),
+            [0.0; 3],
+            [4.0 * PI / 3.0, 4.0 * PI],
+            |p| ball(p, 0.0, 1.0),
+        ),
         plan(
             "cuboid",
             |s| Arc::new(box_of(s, LOW, HIGH)),

@@ -4,11 +4,11 @@ use raysect::core::{Leaving, Node, Ray, Scratch, World};
 use raysect::math::{Point3D, Rng, SphereSampler, Vector3D};
 use raysect::primitive::Sphere;
 
+use super::Cell;
 use super::bodies::{self, Body, Shape};
 use super::double_double::dd;
 use super::exact::Plain;
 use super::wrong::{Fault, Wrong};
-use super::Cell;
 
 /// Relative error of an ordinary chord.
 const LIMIT: f64 = 1e-12;
@@ -45,7 +45,8 @@ pub(crate) fn controls() -> Vec<Cell> {
     let wrong = body.with_shape(Wrong(body.shape.clone(), Fault::Shifts(1e-12)));
     let shape: Shape = std::sync::Arc::new(Sphere::new(radius * (1.0 + 1e-10)).unwrap());
     let (gap, limit) = GRAZING[0];
-    let grazing = chord("sphere larger by 1e-10, grazing".to_owned(), shape, radius, 1.0 - gap..1.0 - gap, limit);
+    let grazing =
+        chord("sphere larger by 1e-10, grazing".to_owned(), shape, radius, 1.0 - gap..1.0 - gap, limit);
     vec![other, grazing, halves("torus 1e-12 off as seen from inside".to_owned(), wrong)]
 }
 

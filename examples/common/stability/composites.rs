@@ -114,7 +114,8 @@ fn ball(radius: f64, z: f64) -> Part {
 
 /// Along the axis, from both ends: the length inside is known to the last digit.
 fn axis_cases() -> Vec<(&'static str, Part, f64)> {
-    let chain = (1..10).fold(slab(0.0, 1.0), |body, i| of(Either, body, slab(f64::from(i), f64::from(i + 1))));
+    let chain =
+        (1..10).fold(slab(0.0, 1.0), |body, i| of(Either, body, slab(f64::from(i), f64::from(i + 1))));
     let rod = at(Plain::Cylinder(0.75, 1.0), 0.0, 0.0, 0.0);
     let spike = at(Plain::Cone(0.75, 1.0), 0.0, 0.0, 1.0);
     vec![
@@ -157,7 +158,9 @@ fn frame_cases() -> Vec<(&'static str, Part)> {
 pub(crate) fn cells() -> Vec<Cell> {
     let mut cells: Vec<Cell> = axis_cases()
         .into_iter()
-        .map(|(name, part, length)| along_axis(format!("{name}, along the axis [m]"), part, length, |s| s).share(0.01))
+        .map(|(name, part, length)| {
+            along_axis(format!("{name}, along the axis [m]"), part, length, |s| s).share(0.01)
+        })
         .collect();
     for (name, part) in frame_cases() {
         let share = if name.starts_with("ring") { 0.02 } else { 0.15 };

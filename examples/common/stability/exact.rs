@@ -122,14 +122,11 @@ impl Plain {
             }
             Self::Cone(r, h) => {
                 let slope = dd(r) / dd(h);
-                let form = |p: Triple, q: Triple, _: Dd| {
-                    p[0] * q[0] + p[1] * q[1] - slope * slope * p[2] * q[2]
-                };
+                let form =
+                    |p: Triple, q: Triple, _: Dd| p[0] * q[0] + p[1] * q[1] - slope * slope * p[2] * q[2];
                 capped(line, h, dd(r) * dd(r), false, &form)
             }
-            Self::Parabola(r, h) => {
-                paraboloid(line, dd(r), dd(h))
-            }
+            Self::Parabola(r, h) => paraboloid(line, dd(r), dd(h)),
             Self::Torus(major, minor) => return torus(line, major, minor),
         };
         all.sort_by(|a, b| a.partial_cmp(b).unwrap());

@@ -31,7 +31,8 @@ pub(crate) fn controls() -> Vec<Cell> {
         volume.volume *= 1.03;
         area.area *= 1.03;
         let longer = body.with_shape(Wrong(body.shape.clone(), Fault::Stretches(0.03)));
-        [("volume", volume), ("area", area), ("chords", longer)].map(|(what, b)| (format!("{what} of {name}"), b))
+        [("volume", volume), ("area", area), ("chords", longer)]
+            .map(|(what, b)| (format!("{what} of {name}"), b))
     });
     wrong.map(|(name, body)| cell(format!("{name} 3 % too large"), body).share(10.0)).collect()
 }
@@ -48,12 +49,14 @@ fn cell(name: String, body: Body) -> Cell {
         let (mut lengths, mut counts) = (Statistics::new(), Statistics::new());
         for _ in 0..rays {
             let direction = SphereSampler.sample(&mut rng);
-            let (x, p) = (direction.orthogonal().unwrap(), sampling::disk::sample(sampling::uniforms(&mut rng)));
+            let (x, p) =
+                (direction.orthogonal().unwrap(), sampling::disk::sample(sampling::uniforms(&mut rng)));
             let target = ball.centre + (x * p.x + direction.cross(x) * p.y) * ball.radius;
             found.clear();
             body.shape.crossings(&Ray::new(target, direction), &mut scratch, &mut found);
             tally.ray();
-            let inside: f64 = found.chunks(2).map(|pair| pair[pair.len() - 1].distance - pair[0].distance).sum();
+            let inside: f64 =
+                found.chunks(2).map(|pair| pair[pair.len() - 1].distance - pair[0].distance).sum();
             lengths.add(inside / ball.radius);
             counts.add(found.len() as f64);
         }

@@ -30,15 +30,20 @@ pub(crate) fn controls() -> Vec<Cell> {
         MeshData::new(ball.vertices().iter().copied(), all_but_one).unwrap()
     };
     let holed: Shape = Arc::new(Mesh::builder(holed).closed(true).build().unwrap());
-    let wrong = |data: &MeshData, fault: Fault| -> Shape {
-        Arc::new(Wrong(Mesh::new(data.clone()).unwrap(), fault))
-    };
+    let wrong =
+        |data: &MeshData, fault: Fault| -> Shape { Arc::new(Wrong(Mesh::new(data.clone()).unwrap(), fault)) };
     let small = MeshData::icosphere(2, 1.0).unwrap();
     vec![
         aimed("a triangle missing".to_owned(), &ball, holed, AffineMatrix3D::IDENTITY),
         distance("vertices in single precision".to_owned(), &ball, 10.0, 12.0, |m| single(m)).share(0.1),
-        against_all("distances off by 1e-13".to_owned(), small.clone(), wrong(&small, Fault::Stretches(1e-13))).share(0.1),
-        against_all("one ray in 100 missed".to_owned(), flat.clone(), wrong(&flat, Fault::Misses(100))).share(0.1),
+        against_all(
+            "distances off by 1e-13".to_owned(),
+            small.clone(),
+            wrong(&small, Fault::Stretches(1e-13)),
+        )
+        .share(0.1),
+        against_all("one ray in 100 missed".to_owned(), flat.clone(), wrong(&flat, Fault::Misses(100)))
+            .share(0.1),
         diagnoses(true),
         below(0, |m| Arc::new(Wrong(m, Fault::Denies))),
     ]
@@ -49,18 +54,23 @@ fn corners() -> Vec<Cell> {
     let data = MeshData::icosphere(4, 1.0).unwrap();
     let turned = rotate(12.0, 34.0, 56.0);
     let far = translate(1e6, -0.5e6, 0.75e6);
-    [("", AffineMatrix3D::IDENTITY), (", turned", turned), (", 1000 km away", far), (", turned, 1000 km away", far * turned)]
-        .into_iter()
-        .flat_map(|(name, m)| {
-            let shape = || -> Shape { Arc::new(Mesh::new(data.clone()).unwrap()) };
-            let in_place = aimed(format!("icosphere{name}: corners and edges"), &data, shape(), m);
-            // The same with mapped vertices.
-            let mapped = data.clone().transformed(&m).unwrap();
-            let shape: Shape = Arc::new(Mesh::new(mapped.clone()).unwrap());
-            let title = format!("icosphere{name}, vertices mapped: corners and edges");
-            [in_place, aimed(title, &mapped, shape, AffineMatrix3D::IDENTITY)]
-        })
-        .collect()
+    [
+        ("", AffineMatrix3D::IDENTITY),
+        (", turned", turned),
+        (", 1000 km away", far),
+        (", turned, 1000 km away", far * turned),
+    ]
+    .into_iter()
+    .flat_map(|(name, m)| {
+        let shape = || -> Shape { Arc::new(Mesh::new(data.clone()).unwrap()) };
+        let in_place = aimed(format!("icosphere{name}: corners and edges"), &data, shape(), m);
+        // The same with mapped vertices.
+        let mapped = data.clone().transformed(&m).unwrap();
+        let shape: Shape = Arc::new(Mesh::new(mapped.clone()).unwrap());
+        let title = format!("icosphere{name}, vertices mapped: corners and edges");
+        [in_place, aimed(title, &mapped, shape, AffineMatrix3D::IDENTITY)]
+    })
+    .collect()
 }
 
 /// Rays at corners, edges and the middles of edges, from outside and from inside: none passes through.
@@ -99,7 +109,9 @@ fn aimed(name: String, data: &MeshData, shape: Shape, m: AffineMatrix3D) -> Cell
             let kinds: Vec<bool> = both.iter().map(|c| c.crossing.exiting).collect();
             tally.check(kinds == [false, true], || format!("{both:?}: {inward:?}"));
             let first = scene.hit(&inward, None, &mut scratch);
-            tally.check(first.is_some() && first == both.first().copied(), || format!("{first:?}: {inward:?}"));
+            tally.check(first.is_some() && first == both.first().copied(), || {
+                format!("{first:?}: {inward:?}")
+            });
             // On from there, and back.
             let Some(entry) = first else { continue };
             let surface = scene.finish(&inward, &entry);
@@ -164,7 +176,9 @@ fn distance(name: String, data: &MeshData, from: f64, offset: f64, make: fn(Mesh
                 let surface = scene.finish(&ray, hit);
                 for outward in [false, true] {
                     let side = side(&corners, surface.launch_point(outward));
-                    tally.check((side > 0.0) == outward, || format!("{side:e} on the wrong side: {surface:?}"));
+                    tally.check((side > 0.0) == outward, || {
+                        format!("{side:e} on the wrong side: {surface:?}")
+                    });
                 }
             }
         }
@@ -202,46 +216,47 @@ fn side(corners: &[Point3D; 3], p: Point3D) -> f64 {
 
 /// Fans of needles about a corner, so many times as long as wide.
 fn needles() -> Vec<Cell> {
-    (2..=7).map(|exponent| {
-        let aspect = 10f64.powi(exponent);
-        let name = format!("needles 1e{exponent} times as long as wide [ε length²/width]");
-        Cell::new(name, 8.0, move |rays, tally| {
-            let count = 200u32;
-            let rim = (0..=count).map(|i| {
-                let (sine, cosine) = (f64::from(i) / aspect).sin_cos();
-                [cosine, sine, 0.25 * cosine]
-            });
-            let vertices: Vec<[f64; 3]> = std::iter::once([0.0; 3]).chain(rim).collect();
-            let fan: Vec<[u32; 3]> = (1..=count).map(|i| [0, i, i + 1]).collect();
-            let mesh = Mesh::new(MeshData::new(vertices.clone(), fan.iter().copied()).unwrap()).unwrap();
-            // Triangles with equal corners among them change nothing.
-            let idle = fan.iter().flat_map(|&[a, b, c]| [[a, b, c], [b, b, c]]);
-            let more = Mesh::new(MeshData::new(vertices.clone(), idle).unwrap()).unwrap();
-            let (mut rng, mut scratch) = (Rng::new(73), Scratch::default());
-            for _ in 0..rays {
-                // On an edge, or within the fan.
-                let i = 1 + (rng.uniform() * f64::from(count)) as usize;
-                let part = rng.range(0.01, 0.99);
-                let [a, b] = [i.clamp(2, count as usize), i + 1].map(|i| Point3D::from(vertices[i]));
-                let along = if rng.uniform() < 0.5 { 0.0 } else { rng.range(0.01, 0.99) };
-                let along = if i < 2 || i >= count as usize { 0.0 } else { along };
-                let p = a + a.vector_to(b) * along;
-                let at = Point3D::from(p.to_vector().to_array().map(|x| x * part));
-                let direction = Vector3D::new(rng.range(-0.3, 0.3), rng.range(-0.3, 0.3), -1.0);
-                let ray = Ray::new(at - direction * 2.0, direction);
-                tally.ray();
-                let hit = mesh.hit(&ray, Interval::AHEAD, &mut scratch);
-                // Places within a triangle are ratios of areas, which are as small as it is narrow.
-                let off = hit.map_or(f64::NAN, |h| (h.distance - 2.0).abs());
-                tally.error(off / (f64::EPSILON * aspect), || format!("{hit:?}: {ray:?}"));
-                let again = more.hit(&ray, Interval::AHEAD, &mut scratch);
-                let same = hit.map(|h| h.distance.to_bits()) == again.map(|h| h.distance.to_bits());
-                tally.check(same, || format!("{hit:?} and {again:?}: {ray:?}"));
-            }
+    (2..=7)
+        .map(|exponent| {
+            let aspect = 10f64.powi(exponent);
+            let name = format!("needles 1e{exponent} times as long as wide [ε length²/width]");
+            Cell::new(name, 8.0, move |rays, tally| {
+                let count = 200u32;
+                let rim = (0..=count).map(|i| {
+                    let (sine, cosine) = (f64::from(i) / aspect).sin_cos();
+                    [cosine, sine, 0.25 * cosine]
+                });
+                let vertices: Vec<[f64; 3]> = std::iter::once([0.0; 3]).chain(rim).collect();
+                let fan: Vec<[u32; 3]> = (1..=count).map(|i| [0, i, i + 1]).collect();
+                let mesh = Mesh::new(MeshData::new(vertices.clone(), fan.iter().copied()).unwrap()).unwrap();
+                // Triangles with equal corners among them change nothing.
+                let idle = fan.iter().flat_map(|&[a, b, c]| [[a, b, c], [b, b, c]]);
+                let more = Mesh::new(MeshData::new(vertices.clone(), idle).unwrap()).unwrap();
+                let (mut rng, mut scratch) = (Rng::new(73), Scratch::default());
+                for _ in 0..rays {
+                    // On an edge, or within the fan.
+                    let i = 1 + (rng.uniform() * f64::from(count)) as usize;
+                    let part = rng.range(0.01, 0.99);
+                    let [a, b] = [i.clamp(2, count as usize), i + 1].map(|i| Point3D::from(vertices[i]));
+                    let along = if rng.uniform() < 0.5 { 0.0 } else { rng.range(0.01, 0.99) };
+                    let along = if i < 2 || i >= count as usize { 0.0 } else { along };
+                    let p = a + a.vector_to(b) * along;
+                    let at = Point3D::from(p.to_vector().to_array().map(|x| x * part));
+                    let direction = Vector3D::new(rng.range(-0.3, 0.3), rng.range(-0.3, 0.3), -1.0);
+                    let ray = Ray::new(at - direction * 2.0, direction);
+                    tally.ray();
+                    let hit = mesh.hit(&ray, Interval::AHEAD, &mut scratch);
+                    // Places within a triangle are ratios of areas, which are as small as it is narrow.
+                    let off = hit.map_or(f64::NAN, |h| (h.distance - 2.0).abs());
+                    tally.error(off / (f64::EPSILON * aspect), || format!("{hit:?}: {ray:?}"));
+                    let again = more.hit(&ray, Interval::AHEAD, &mut scratch);
+                    let same = hit.map(|h| h.distance.to_bits()) == again.map(|h| h.distance.to_bits());
+                    tally.check(same, || format!("{hit:?} and {again:?}: {ray:?}"));
+                }
+            })
+            .share(0.3)
         })
-        .share(0.3)
-    })
-    .collect()
+        .collect()
 }
 
 /// Three flat, axis-aligned sheets of squares: every box has no thickness.
@@ -253,7 +268,8 @@ fn grid(s: f64) -> MeshData {
         let base = vertices.len() as u32;
         for i in 0..=n {
             for j in 0..=n {
-                let mut p = [f64::from(axis) * 0.1 * s, f64::from(i) / 4.0 * s - s, f64::from(j) / 4.0 * s - s];
+                let mut p =
+                    [f64::from(axis) * 0.1 * s, f64::from(i) / 4.0 * s - s, f64::from(j) / 4.0 * s - s];
                 p.rotate_right(axis as usize);
                 vertices.push(p);
             }
@@ -351,13 +367,16 @@ fn judge_all(
     shape.crossings(ray, scratch, all);
     let hit = shape.hit(ray, Interval::AHEAD, scratch);
     let first = all.iter().find(|c| c.distance >= 0.0);
-    let same = hit.map(|c| (c.distance.to_bits(), c.exiting)) == first.map(|c| (c.distance.to_bits(), c.exiting));
+    let same =
+        hit.map(|c| (c.distance.to_bits(), c.exiting)) == first.map(|c| (c.distance.to_bits(), c.exiting));
     tally.check(same, || format!("{hit:?} is not the first of {all:?}: {ray:?}"));
     // On an edge either neighbour is right; elsewhere each triangle is met once.
     for (t, clear, index) in expected.iter().filter(|e| e.1 > 1e-12) {
         let found: Vec<_> = all.iter().filter(|c| c.feature.face as usize == *index).collect();
         let [crossing] = found[..] else {
-            tally.fail(|| format!("triangle {index}, clear by {clear:e}, is met {} times: {ray:?}", found.len()));
+            tally.fail(|| {
+                format!("triangle {index}, clear by {clear:e}, is met {} times: {ray:?}", found.len())
+            });
             continue;
         };
         let (_, cosine) = plane(&triangles[*index], ray);
@@ -372,7 +391,8 @@ fn judge_all(
 /// False if the line is far beside the triangle.
 fn may_meet(corners: &[Point3D; 3], ray: &Ray, size: f64) -> bool {
     let d = ray.direction.normalise_unchecked();
-    let centre = corners[0] + (corners[0].vector_to(corners[1]) + corners[0].vector_to(corners[2])) * (1.0 / 3.0);
+    let centre =
+        corners[0] + (corners[0].vector_to(corners[1]) + corners[0].vector_to(corners[2])) * (1.0 / 3.0);
     let reach = corners.iter().map(|c| centre.distance_to(*c)).fold(0.0, f64::max);
     let v = ray.origin.vector_to(centre);
     (v - d * v.dot(d)).length() <= reach + 1e-9 * size
@@ -382,7 +402,8 @@ fn may_meet(corners: &[Point3D; 3], ray: &Ray, size: f64) -> bool {
 fn diagnoses(swapped: bool) -> Cell {
     Cell::new("open, inverted and inconsistent cubes are told", 0.0, move |_, tally| {
         let cube = MeshData::cube(1.0).unwrap();
-        let of = |triangles: Vec<[u32; 3]>| MeshData::new(cube.vertices().iter().copied(), triangles).unwrap();
+        let of =
+            |triangles: Vec<[u32; 3]>| MeshData::new(cube.vertices().iter().copied(), triangles).unwrap();
         let all = cube.triangles().to_vec();
         let inverted: Vec<_> = all.iter().map(|&[a, b, c]| [a, c, b]).collect();
         let mut turned = all.clone();

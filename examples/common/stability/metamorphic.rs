@@ -45,7 +45,10 @@ pub(crate) fn cells() -> Vec<Cell> {
         let pair = |title: &str, twins: Twins| cell(format!("{name}: {title} [64 ε reach]"), &body, twins);
         cells.push(pair("A ∪ A", whole(Arc::new(Union::new(shape.clone(), shape.clone()).unwrap()))));
         cells.push(pair("A ∩ A", whole(Arc::new(Intersect::new(shape.clone(), shape.clone()).unwrap()))));
-        cells.push(pair("A without what is elsewhere", whole(Arc::new(Subtract::new(shape.clone(), far).unwrap()))));
+        cells.push(pair(
+            "A without what is elsewhere",
+            whole(Arc::new(Subtract::new(shape.clone(), far).unwrap())),
+        ));
         cells.push(pair("twice as large", sized(2.0)));
         cells.push(pair("2⁴⁰ times as large", sized(2f64.powi(40))));
         cells.push(pair("2⁻⁴⁰ times as large", sized(2f64.powi(-40))));
@@ -130,15 +133,7 @@ fn cell(name: String, body: &Body, twins: Twins) -> Cell {
 }
 
 /// Compares two lists of crossings of a line, whose second has distances in another unit.
-fn compare(
-    body: &Body,
-    ray: &Ray,
-    a: &[Crossing],
-    b: &[Crossing],
-    unit: f64,
-    reach: f64,
-    tally: &mut Tally,
-) {
+fn compare(body: &Body, ray: &Ray, a: &[Crossing], b: &[Crossing], unit: f64, reach: f64, tally: &mut Tally) {
     let rounding = 64.0 * f64::EPSILON * reach * body.size;
     if a.len() != b.len() {
         let (more, unit) = if a.len() > b.len() { (a, 1.0) } else { (b, unit) };
@@ -288,7 +283,9 @@ fn ball_and_mesh(excess: f64) -> Cell {
 
 /// A mesh under a node's map, and a mesh whose vertices were mapped.
 fn instances() -> Vec<Cell> {
-    let m = translate(1.0, 2.0, -0.5) * rotate(20.0, 30.0, 40.0) * map([2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 1.0]);
+    let m = translate(1.0, 2.0, -0.5)
+        * rotate(20.0, 30.0, 40.0)
+        * map([2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 1.0]);
     [("icosphere", MeshData::icosphere(3, 1.0).unwrap()), ("bracket", bodies::bracket(1.0))]
         .into_iter()
         .map(|(name, data)| {
@@ -311,7 +308,9 @@ fn instances() -> Vec<Cell> {
                     tally.ray();
                     if x.len() != y.len() {
                         let lengths = |l: &[raysect::core::Candidate]| -> f64 {
-                            l.chunks(2).map(|p| p[p.len() - 1].crossing.distance - p[0].crossing.distance).sum()
+                            l.chunks(2)
+                                .map(|p| p[p.len() - 1].crossing.distance - p[0].crossing.distance)
+                                .sum()
                         };
                         // An edge that is grazed.
                         let same = (lengths(&x) - lengths(&y)).abs() < 1e-12;

@@ -18,7 +18,9 @@ pub(crate) fn cells() -> Vec<Cell> {
                 let name = format!("{count} shapes of {size:e} m, {offset:e} sizes off, {acceleration:?}");
                 let share = if count > 100 { 0.05 } else { 0.2 };
                 let core = size == 1.0 && (count < 100 || offset > 0.0);
-                cells.push(cell(name, acceleration.clone(), size, count, offset, |s| s).share(share).core(core));
+                cells.push(
+                    cell(name, acceleration.clone(), size, count, offset, |s| s).share(share).core(core),
+                );
             }
         }
     }
@@ -40,7 +42,11 @@ struct Reference {
 
 impl Reference {
     fn local(ray: &Ray, to_local: &AffineMatrix3D) -> Ray {
-        Ray { origin: *to_local * ray.origin, direction: *to_local * ray.direction, max_distance: ray.max_distance }
+        Ray {
+            origin: *to_local * ray.origin,
+            direction: *to_local * ray.direction,
+            max_distance: ray.max_distance,
+        }
     }
 
     fn crossings(&self, ray: &Ray, scratch: &mut Scratch) -> Vec<(f64, NodeId, bool)> {
@@ -103,7 +109,8 @@ fn world(
         let node = world.add(Node::of(spoil(shape.clone()), ()).transform(m).parent(parent)).unwrap();
         nodes.push((node, shape));
     }
-    let shapes = nodes.into_iter().map(|(node, shape)| (node, shape, world.to_local(node).unwrap())).collect();
+    let shapes =
+        nodes.into_iter().map(|(node, shape)| (node, shape, world.to_local(node).unwrap())).collect();
     (world, Reference { shapes })
 }
 

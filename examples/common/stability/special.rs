@@ -128,7 +128,8 @@ impl Row {
 
 pub(crate) fn cells() -> Vec<Cell> {
     let mut cells = vec![table("table".to_owned(), |s| s.shape())];
-    for (name, solid) in [("sphere", BALL), ("cuboid", BOX), ("cylinder", ROD), ("cone", SPIKE), ("parabola", DISH)]
+    for (name, solid) in
+        [("sphere", BALL), ("cuboid", BOX), ("cylinder", ROD), ("cone", SPIKE), ("parabola", DISH)]
     {
         cells.push(near_tangent(name, solid, solid.shape()));
     }
@@ -254,8 +255,8 @@ fn plane_of_symmetry(name: &str, solid: Plain, shape: Shape) -> Cell {
             shape.crossings(&ray, &mut scratch, &mut found);
             tally.ray();
             let exact = solid.crossings(&ray);
-            let right = exact.len() == found.len()
-                || solid.is_near_limb(&ray, 16.0 * f64::EPSILON * solid.size());
+            let right =
+                exact.len() == found.len() || solid.is_near_limb(&ray, 16.0 * f64::EPSILON * solid.size());
             tally.check(right, || format!("{} crossings, not {}: {ray:?}", found.len(), exact.len()));
             for c in &found {
                 let s = shape.surface(&ray, c);

@@ -23,8 +23,14 @@ fn maps() -> Vec<(&'static str, AffineMatrix3D)> {
         ("sheared", map([1.0, 0.25, -0.25], [0.5, 1.5, 0.125], [-0.25, 0.25, 0.75])),
         ("sheared and mirrored", map([1.0, 0.25, -0.25], [-0.5, -1.5, 0.5], [-0.25, 0.25, 0.75])),
         ("flattened to 1/1000", map([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0009765625])),
-        ("turned and stretched", rotate(30.0, 40.0, 50.0) * map([1.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 0.5])),
-        ("moved and sheared", translate(1.5, -2.0, 0.75) * map([1.0, 0.5, 0.0], [0.0, 1.0, 0.5], [0.5, 0.0, 1.0])),
+        (
+            "turned and stretched",
+            rotate(30.0, 40.0, 50.0) * map([1.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 0.5]),
+        ),
+        (
+            "moved and sheared",
+            translate(1.5, -2.0, 0.75) * map([1.0, 0.5, 0.0], [0.0, 1.0, 0.5], [0.5, 0.0, 1.0]),
+        ),
     ]
 }
 
@@ -74,7 +80,8 @@ pub(crate) fn controls() -> Vec<Cell> {
         Cell::new("normals turned like vectors", NORMAL, move |rays, tally| {
             // Mᵀ n is along the normal in the space of the shape.
             let columns = [0, 1, 2].map(|i| m.axis(i));
-            let like_vector = |n: Vector3D| (m * Vector3D::from(columns.map(|c| c.dot(n)))).normalise_unchecked();
+            let like_vector =
+                |n: Vector3D| (m * Vector3D::from(columns.map(|c| c.dot(n)))).normalise_unchecked();
             judge_normals(&bodies::named("cone", 1.0), &m, rays, tally, like_vector);
         }),
         lengths("one ray in 100 missed".to_owned(), missing),
@@ -257,7 +264,9 @@ fn lengths(name: String, body: Body) -> Cell {
             }
             let hit = body.shape.hit(&other, Interval::AHEAD, &mut scratch);
             let first = long.iter().find(|c| c.distance >= 0.0);
-            tally.check(hit.map(|c| c.distance) == first.map(|c| c.distance), || format!("{hit:?}: {other:?}"));
+            tally.check(hit.map(|c| c.distance) == first.map(|c| c.distance), || {
+                format!("{hit:?}: {other:?}")
+            });
         }
     })
 }

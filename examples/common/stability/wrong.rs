@@ -1,8 +1,6 @@
 //! Shapes that are wrong on purpose.
 
-use raysect::core::{
-    BoundingBox3D, Crossing, Departure, Interval, Primitive, Ray, Scratch, Surface,
-};
+use raysect::core::{BoundingBox3D, Crossing, Departure, Interval, Primitive, Ray, Scratch, Surface};
 use raysect::math::{AffineMatrix3D, Normal3D, Point3D};
 
 /// What is wrong with a shape.
