@@ -42,12 +42,26 @@ pub struct Departure {
 }
 
 impl Departure {
-    /// Which of two crossings is rather the one that is being left: that on the same face, or else the nearer one.
-    /// A ray along a surface is in doubt far along its way, where it crosses other faces.
-    pub fn prefer(&self, a: &Crossing, b: &Crossing) -> std::cmp::Ordering {
-        let elsewhere =
-            |c: &Crossing| (c.feature.part, c.feature.face) != (self.feature.part, self.feature.face);
-        elsewhere(a).cmp(&elsewhere(b)).then(a.distance.abs().total_cmp(&b.distance.abs()))
+    /// Which of the crossings in order is the one that is being left, if one is: of the right kind, rather on the face
+    /// that is left than on another, and rather near than far.
+    ///
+    /// `steepness` is the cosine between the ray and the surface at a crossing. A ray along a face is in doubt far along
+    /// its way, where it crosses other faces: these are left only if they may go through the origin of the ray.
+    pub fn left_among(
+        &self,
+        crossings: impl Iterator<Item = Crossing>,
+        steepness: impl Fn(&Crossing) -> f64,
+    ) -> Option<usize> {
+        let elsewhere = |c: &Crossing| (c.feature.part, c.feature.face) != (self.feature.part, self.feature.face);
+        let candidates = crossings
+            .enumerate()
+            .filter(|(_, c)| c.exiting != self.inward && c.distance.abs() <= self.bound);
+        let (index, left) = candidates.min_by(|(_, a), (_, b)| {
+            elsewhere(a).cmp(&elsewhere(b)).then(a.distance.abs().total_cmp(&b.distance.abs()))
+        })?;
+        let here = || Crossing { distance: 0.0, feature: self.feature, exiting: !self.inward };
+        let through_origin = || left.distance.abs() * steepness(&left) <= 4.0 * self.bound * steepness(&here());
+        (!elsewhere(&left) || through_origin()).then_some(index)
     }
 }
 
@@ -170,12 +184,8 @@ pub trait Primitive: Send + Sync + 'static {
     ) -> Option<Crossing> {
         let mut all = scratch.take();
         self.crossings(ray, scratch, &mut all);
-        let left = all
-            .iter()
-            .enumerate()
-            .filter(|(_, c)| c.exiting != departure.inward && c.distance.abs() <= departure.bound)
-            .min_by(|a, b| departure.prefer(a.1, b.1))
-            .map(|(index, _)| index);
+        let steepness = |c: &Crossing| self.surface(ray, c).normal.dot(ray.direction).abs();
+        let left = departure.left_among(all.iter().copied(), steepness);
         let next = match left {
             Some(index) => all.get(index + 1).copied(),
             None => all.iter().copied().find(|c| c.distance > 0.0),

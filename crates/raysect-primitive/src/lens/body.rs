@@ -246,11 +246,10 @@ impl Primitive for Body {
             return (distance <= max_distance).then_some(Crossing { distance, feature, exiting: true });
         }
         let all = line?.crossings(scale);
-        let departed = (all.iter().enumerate())
-            .filter(|(_, c)| c.exiting != left.inward && c.distance.abs() <= left.bound)
-            .min_by(|a, b| left.prefer(&a.1, &b.1));
+        let steepness = |c: &Crossing| self.surface(ray, c).normal.dot(ray.direction).abs();
+        let departed = left.left_among(all.iter(), steepness);
         let next = match departed {
-            Some((index, _)) => all.iter().nth(index + 1),
+            Some(index) => all.iter().nth(index + 1),
             None => all.iter().find(|c| c.distance > 0.0),
         };
         let next = next.map(|c| Crossing { distance: c.distance.max(0.0), ..c });
