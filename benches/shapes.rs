@@ -9,27 +9,36 @@ mod rays;
 use std::hint::black_box;
 use std::path::Path;
 use std::process::Command;
+use std::sync::Arc;
 use std::time::Instant;
 
 use rays::Order;
-use raysect::core::{Node, Ray, Scratch, World};
+use raysect::core::{Interval, Node, Primitive, Ray, Scratch, World};
 use raysect::prelude::{
     Cone, Cuboid, Cylinder, Intersect, Parabola, Place, Point3D, Sphere, Subtract, Torus, Union, rotate,
     translate,
 };
 
-const WORLDS: [&str; 6] = ["sphere", "cylinder", "cone", "parabola", "torus", "composites"];
+const WORLDS: [&str; 7] = ["sphere", "cuboid", "cylinder", "cone", "parabola", "torus", "composites"];
 
-/// A world, and the place from which it is looked at with the size of what there is to see.
+/// A shape that a world has by itself.
+fn shape(name: &str) -> raysect::Result<Option<Arc<dyn Primitive>>> {
+    Ok(Some(match name {
+        "sphere" => Arc::new(Sphere::new(1.0)?),
+        "cuboid" => Arc::new(Cuboid::centred(1.0, 1.2, 0.8)?),
+        "cylinder" => Arc::new(Cylinder::new(0.7, 1.2)?),
+        "cone" => Arc::new(Cone::new(0.7, 1.2)?),
+        "parabola" => Arc::new(Parabola::new(0.7, 1.2)?),
+        "torus" => Arc::new(Torus::new(0.7, 0.3)?),
+        _ => return Ok(None),
+    }))
+}
+
 fn world(name: &str) -> raysect::Result<World<()>> {
     let mut world = World::new();
-    match name {
-        "sphere" => drop(world.add(Sphere::new(1.0)?)?),
-        "cylinder" => drop(world.add(Cylinder::new(0.7, 1.2)?)?),
-        "cone" => drop(world.add(Cone::new(0.7, 1.2)?)?),
-        "parabola" => drop(world.add(Parabola::new(0.7, 1.2)?)?),
-        "torus" => drop(world.add(Torus::new(0.7, 0.3)?)?),
-        _ => composites(&mut world)?,
+    match shape(name)? {
+        Some(shape) => drop(world.add(shape)?),
+        None => composites(&mut world)?,
     }
     Ok(world)
 }
@@ -69,13 +78,30 @@ fn ours(world: &World<()>, rays: &[Ray]) -> raysect::Result<f64> {
     let scene = world.scene()?;
     let mut scratch = Scratch::default();
     let start = Instant::now();
+    let mut sum = 0.0;
     for ray in rays {
-        black_box(scene.hit(ray, None, &mut scratch).map(|hit| scene.finish(ray, &hit)));
+        let hit = scene.hit(ray, None, &mut scratch);
+        sum += hit.map_or(0.0, |hit| scene.finish(ray, &hit).bound);
     }
+    black_box(sum);
     Ok(rays.len() as f64 / start.elapsed().as_secs_f64())
 }
 
-fn theirs(python: &str, name: &str, sets: &[Vec<Ray>; 2], count: usize) -> Result<[f64; 2], String> {
+/// The same of a shape alone, in its own space.
+fn alone(shape: &dyn Primitive, rays: &[Ray]) -> f64 {
+    let mut scratch = Scratch::default();
+    let start = Instant::now();
+    let mut sum = 0.0;
+    for ray in rays {
+        let hit = black_box(shape).hit(ray, Interval::AHEAD, &mut scratch);
+        sum += hit.map_or(0.0, |hit| shape.surface(ray, &hit).bound);
+    }
+    black_box(sum);
+    rays.len() as f64 / start.elapsed().as_secs_f64()
+}
+
+/// Hits per second of both sets, in a world and, of a single shape, alone.
+fn theirs(python: &str, name: &str, sets: &[Vec<Ray>; 2], count: usize) -> Result<[f64; 4], String> {
     let path = std::env::temp_dir().join(format!("raysect-rays-{}", std::process::id()));
     let numbers = |rays: &[Ray]| -> Vec<u8> {
         let chosen = rays.iter().step_by(rays.len().div_ceil(count));
@@ -96,7 +122,7 @@ fn theirs(python: &str, name: &str, sets: &[Vec<Ray>; 2], count: usize) -> Resul
     }
     let text = String::from_utf8_lossy(&run.stdout);
     let rates: Vec<f64> = text.split_whitespace().filter_map(|x| x.parse().ok()).collect();
-    rates.try_into().map_err(|_| format!("not two numbers: {text}"))
+    rates.try_into().map_err(|_| format!("not four numbers: {text}"))
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -111,11 +137,12 @@ fn main() -> raysect::Result<()> {
     let python = std::env::var("RAYSECT_PYTHON").ok().filter(|_| !test);
     let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     for name in WORLDS.into_iter().filter(|n| wanted.is_empty() || wanted.iter().any(|w| w == n)) {
-        let (world, sets) = (world(name)?, sets(name, count));
-        let mut rates: [[Vec<f64>; 2]; 2] = Default::default();
+        let (world, shape, sets) = (world(name)?, shape(name)?, sets(name, count));
+        let mut rates: [[Vec<f64>; 4]; 2] = Default::default();
         for _ in 0..rounds {
-            for (rates, rays) in rates[0].iter_mut().zip(&sets) {
-                rates.push(ours(&world, rays)?);
+            for (set, rays) in sets.iter().enumerate() {
+                rates[0][set].push(ours(&world, rays)?);
+                rates[0][2 + set].push(shape.as_ref().map_or(f64::NAN, |shape| alone(shape, rays)));
             }
             match python.as_ref().map(|python| theirs(python, name, &sets, 30_000)) {
                 Some(Ok(found)) => rates[1].iter_mut().zip(found).for_each(|(rates, rate)| rates.push(rate)),
@@ -123,11 +150,12 @@ fn main() -> raysect::Result<()> {
                 None => {}
             }
         }
-        let [mine, other] = rates.map(|pair| pair.map(median));
-        for (order, (a, b)) in ["coherent", "incoherent"].iter().zip(mine.into_iter().zip(other)) {
+        let [mine, other] = rates.map(|all| all.map(median));
+        let ways = ["coherent", "incoherent", "coherent, alone", "incoherent, alone"];
+        for (way, (a, b)) in ways.iter().zip(mine.into_iter().zip(other)).filter(|(_, (a, _))| !a.is_nan()) {
             let ratio =
                 if b.is_nan() { String::new() } else { format!("   Raysect {b:.3e}   ratio {:.1}", a / b) };
-            println!("{name:<11} {order:<11} {a:.3e} hits/s{ratio}");
+            println!("{name:<11} {way:<18} {a:.3e} hits/s{ratio}");
         }
     }
     Ok(())

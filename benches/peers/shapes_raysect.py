@@ -9,16 +9,19 @@ from raysect.primitive import Box, Cone, Cylinder, Intersect, Parabola, Sphere, 
 
 name, *files = sys.argv[1:]
 world = World()
+shape = None
 if name == "sphere":
-    Sphere(1.0, world)
+    shape = Sphere(1.0, world)
+elif name == "cuboid":
+    shape = Box(Point3D(-0.5, -0.6, -0.4), Point3D(0.5, 0.6, 0.4), world)
 elif name == "cylinder":
-    Cylinder(0.7, 1.2, world)
+    shape = Cylinder(0.7, 1.2, world)
 elif name == "cone":
-    Cone(0.7, 1.2, world)
+    shape = Cone(0.7, 1.2, world)
 elif name == "parabola":
-    Parabola(0.7, 1.2, world)
+    shape = Parabola(0.7, 1.2, world)
 elif name == "torus":
-    Torus(0.7, 0.3, world)
+    shape = Torus(0.7, 0.3, world)
 else:
     x, y, z = (Cylinder(1, 4.2, transform=rotate(a, b, 0) * translate(0, 0, -2.1)) for a, b in ((90, 0), (0, 90), (0, 0)))
     cube = Box(Point3D(-1.5, -1.5, -1.5), Point3D(1.5, 1.5, 1.5))
@@ -31,9 +34,15 @@ else:
     Box(Point3D(-100, -100, -100), Point3D(100, 100, 100), world)
 world.build_accelerator()
 
+sets = []
 for file in files:
     numbers = np.fromfile(file, np.float64).reshape(-1, 6).tolist()
-    rays = [Ray(Point3D(*n[:3]), Vector3D(*n[3:])) for n in numbers]
-    start = time.perf_counter()
-    deque(map(world.hit, rays), maxlen=0)
-    print(len(rays) / (time.perf_counter() - start))
+    sets.append([Ray(Point3D(*n[:3]), Vector3D(*n[3:])) for n in numbers])
+for hit in (world.hit, shape.hit if shape else None):
+    for rays in sets:
+        if hit is None:
+            print("nan")
+            continue
+        start = time.perf_counter()
+        deque(map(hit, rays), maxlen=0)
+        print(len(rays) / (time.perf_counter() - start))

@@ -223,7 +223,7 @@ fn a_common_face_is_one_surface_in_a_turned_frame() {
         for block in order {
             world.add(block).unwrap();
         }
-        let reading = Probe::new(40_000).seed(24).each(&world, |rng| {
+        let reading = Probe::new(60_000).seed(24).each(&world, |rng| {
             let from = Point3D::new(rng.range(-1.0, 1.0), rng.range(-1.0, 1.0), -2.0);
             Ray::new(turn * from, turn * Vector3D::Z)
         });

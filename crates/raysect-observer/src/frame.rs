@@ -43,7 +43,7 @@ const CLOSED: usize = 3;
 /// Folds a sample into an open block (B. P. Welford, *Technometrics* 4(3), 1962).
 #[inline]
 pub(crate) fn add_sample(block: &mut [f64], sample: &[f64]) {
-    let second = block[0] % 2.0 == 1.0;
+    let second = block[0] as u32 % 2 == 1;
     let count = block[0] + 1.0;
     block[0] = count;
     let inverse = 1.0 / count;

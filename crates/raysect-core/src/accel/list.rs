@@ -13,6 +13,9 @@ pub struct List {
     level: Level,
 }
 
+/// So few instances are tested without their boxes: any superset of what is met gives the same answer.
+const UNTESTED: usize = 2;
+
 /// Boxes that are tested side by side.
 const LANES: usize = 4;
 
@@ -100,7 +103,18 @@ impl List {
 }
 
 impl Accelerator for List {
-    fn visit(&self, ray: &TraversalRay, limit: f64, visitor: &mut Visitor<'_>) {
+    fn visit(&self, ray: &TraversalRay, mut limit: f64, visitor: &mut Visitor<'_>) {
+        if self.boxes.len() <= UNTESTED {
+            for (index, b) in self.boxes.iter().enumerate() {
+                if !b.is_empty() {
+                    limit = visitor(index as u32, limit);
+                    if limit < ray.min {
+                        return;
+                    }
+                }
+            }
+            return;
+        }
         dispatch!(self.level, simd => walk(simd, &self.groups, ray, limit, visitor));
     }
 

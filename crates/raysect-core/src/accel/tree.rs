@@ -155,7 +155,12 @@ mod tests {
                 let direction = Vector3D::new(u(), u(), if u() > 0.5 { 0.0 } else { u() });
                 let origin = Point3D::new(5.0 + 6.0 * u(), 5.0 + 6.0 * u(), 5.0 + 6.0 * u());
                 let ray = TraversalRay::new(&Ray::new(origin, direction), 0.0);
-                assert_eq!(boxes_met(&tree, &ray), boxes_met(&list, &ray));
+                // Of very few boxes a list does not test any.
+                let all = boxes_met(&list, &ray);
+                let met = all
+                    .into_iter()
+                    .filter(|&i| ray.enter(&slabs(&boxes[i as usize]), f64::INFINITY).is_some());
+                assert_eq!(boxes_met(&tree, &ray), met.collect::<Vec<_>>());
                 let (mut a, mut b) = (Vec::new(), Vec::new());
                 tree.visit_containing(origin, &mut |i| a.push(i));
                 list.visit_containing(origin, &mut |i| b.push(i));

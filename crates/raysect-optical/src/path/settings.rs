@@ -27,12 +27,12 @@ pub struct PathSettings {
 }
 
 impl Default for PathSettings {
-    /// Depth 500; roulette below a throughput of 10 %; lights sampled; 20 % of the paths aimed at what else is
+    /// Depth 500; roulette below a throughput of 20 %; lights sampled; 20 % of the paths aimed at what else is
     /// important.
     fn default() -> Self {
         Self {
             max_depth: 500,
-            roulette_threshold: 0.1,
+            roulette_threshold: 0.2,
             light_sampling: LightSampling::Lights,
             important_path_weight: 0.2,
         }
