@@ -255,7 +255,7 @@ fn check_sampling(
     let n = tries as f64;
     let (mean, error) = (sum / n, ((squares / n - (sum / n).powi(2)).max(0.0) / n).sqrt());
     // A shape that hardly any direction meets is too thin to judge in this way.
-    if met >= 100 && ((mean - 1.0).abs() > 5.0 * error + 1e-9 || refused == tries) {
+    if met > 50 && ((mean - 1.0).abs() > 5.0 * error + 1e-9 || refused == tries) {
         return Err(format!(
             "the sampling density integrates to {mean} ± {error}, {refused} of {tries} draws refused"
         ));
