@@ -220,7 +220,7 @@ fn needles() -> Vec<Cell> {
         .map(|exponent| {
             let aspect = 10f64.powi(exponent);
             let name = format!("needles 1e{exponent} times as long as wide [ε length²/width]");
-            Cell::new(name, 8.0, move |rays, tally| {
+            Cell::new(name, 1.0, move |rays, tally| {
                 let count = 200u32;
                 let rim = (0..=count).map(|i| {
                     let (sine, cosine) = (f64::from(i) / aspect).sin_cos();
