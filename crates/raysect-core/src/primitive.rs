@@ -52,16 +52,20 @@ impl Departure {
         crossings: impl Iterator<Item = Crossing>,
         steepness: impl Fn(&Crossing) -> f64,
     ) -> Option<usize> {
-        let elsewhere = |c: &Crossing| (c.feature.part, c.feature.face) != (self.feature.part, self.feature.face);
-        let candidates = crossings
-            .enumerate()
-            .filter(|(_, c)| c.exiting != self.inward && c.distance.abs() <= self.bound);
+        let elsewhere =
+            |c: &Crossing| (c.feature.part, c.feature.face) != (self.feature.part, self.feature.face);
+        let candidates =
+            crossings.enumerate().filter(|(_, c)| c.exiting != self.inward && c.distance.abs() <= self.bound);
         let (index, left) = candidates.min_by(|(_, a), (_, b)| {
             elsewhere(a).cmp(&elsewhere(b)).then(a.distance.abs().total_cmp(&b.distance.abs()))
         })?;
-        let here = || Crossing { distance: 0.0, feature: self.feature, exiting: !self.inward };
-        let through_origin = || left.distance.abs() * steepness(&left) <= 4.0 * self.bound * steepness(&here());
-        (!elsewhere(&left) || through_origin()).then_some(index)
+        (!elsewhere(&left) || self.goes_through(&left, steepness)).then_some(index)
+    }
+
+    /// True if the surface at a crossing may go through the origin of the ray, as far as rounding can tell.
+    pub fn goes_through(&self, crossing: &Crossing, steepness: impl Fn(&Crossing) -> f64) -> bool {
+        let here = Crossing { distance: 0.0, feature: self.feature, exiting: !self.inward };
+        crossing.distance.abs() * steepness(crossing) <= 4.0 * self.bound * steepness(&here)
     }
 }
 

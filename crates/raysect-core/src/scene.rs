@@ -101,6 +101,9 @@ impl<A> Instance<A> {
         scratch: &mut Scratch,
     ) -> Option<Crossing> {
         let departure = &leaving.departure;
+        if next.is_some() && !leaving.grazes {
+            return next;
+        }
         if next.is_none() && limit < f64::INFINITY {
             // Most likely it ends beyond the limit. Only a ray that grazes is worth a second look.
             let beyond = |s| self.primitive.hit_after(local, departure, f64::INFINITY, s);

@@ -10,7 +10,10 @@ use super::{Cell, Tally};
 /// Sizes [m].
 const SCALES: [f64; 7] = [1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9];
 /// Bodies whose gaps or chords, where these are as thin as the rounding of their place, are not always seen.
-const SHY: [&str; 9] = [
+const SHY: [&str; 12] = [
+    "mesh cube",
+    "mesh ball",
+    "intersect",
     "cone",
     "parabola",
     "mesh bracket",

@@ -105,6 +105,13 @@ fn places(name: String, plain: Plain, shape: bodies::Shape, m: AffineMatrix3D) -
     Cell::new(name, 1.0, move |rays, tally| {
         let mut world = World::<()>::new();
         world.add(Node::of(shape.clone(), ()).transform(m)).unwrap();
+        // Others far away, for one or two shapes are tested without their boxes.
+        for far in [-1e9, 1e9, 2e9] {
+            let reach = far * norm(&m) * plain.size();
+            world
+                .add(Node::of(Plain::Sphere(plain.size()).shape(), ()).transform(translate(reach, 0.0, 0.0)))
+                .unwrap();
+        }
         let scene = world.scene().unwrap();
         let (mut rng, mut scratch) = (Rng::new(51), Scratch::default());
         for _ in 0..rays {

@@ -2,7 +2,7 @@ use std::ops::ControlFlow;
 
 use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{
-    BoundingBox3D, BoundingSphere3D, Crossing, Feature, Interval, Primitive, Ray, Scratch, Surface,
+    BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch, Surface,
 };
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
@@ -122,6 +122,22 @@ impl Composite {
             Operation::Subtract => a,
             Operation::Intersect => a.intersection(&self.b.bounding_box(m)),
         }
+    }
+
+    /// The face of an operand, among those that go through the origin of the ray, which ends what the ray is in.
+    #[cold]
+    fn leave_at_once(&self, ray: &Ray, departure: &Departure, scratch: &mut Scratch) -> Option<Crossing> {
+        let mut both = scratch.take();
+        self.a.crossings(ray, scratch, &mut both);
+        let first_of_b = both.len();
+        self.b.crossings(ray, scratch, &mut both);
+        let all = both.iter().enumerate().map(|(index, c)| self.as_own(c, index >= first_of_b));
+        let steepness = |c: &Crossing| self.surface(ray, c).normal.dot(ray.direction).abs();
+        let nearest = all
+            .filter(|c| c.exiting == departure.inward && departure.goes_through(c, steepness))
+            .min_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs()));
+        scratch.give_back(both);
+        nearest.map(|c| Crossing { distance: 0.0, ..c })
     }
 
     /// Lends the crossings of the composite one by one, in order.
@@ -260,6 +276,33 @@ impl Primitive for Composite {
             ControlFlow::Continue(())
         });
         first
+    }
+
+    /// As every shape does by default; but where the body or the gap is thinner than rounding, so that the crossing
+    /// that is being left cannot be found, what must come next comes at once.
+    fn hit_after(
+        &self,
+        ray: &Ray,
+        departure: &Departure,
+        max_distance: f64,
+        scratch: &mut Scratch,
+    ) -> Option<Crossing> {
+        let mut all = scratch.take();
+        self.crossings(ray, scratch, &mut all);
+        let steepness = |c: &Crossing| self.surface(ray, c).normal.dot(ray.direction).abs();
+        let left = departure.left_among(all.iter().copied(), steepness);
+        let next = match left {
+            Some(index) => all.get(index + 1).copied(),
+            None => all.iter().copied().find(|c| c.distance > 0.0),
+        };
+        scratch.give_back(all);
+        let next = match next {
+            Some(crossing) if crossing.exiting == departure.inward => next,
+            None if !departure.inward => next,
+            _ => self.leave_at_once(ray, departure, scratch).or(next),
+        };
+        let next = next.map(|c| Crossing { distance: c.distance.max(0.0), ..c });
+        next.filter(|c| c.distance <= max_distance)
     }
 
     fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {

@@ -245,12 +245,18 @@ impl Primitive for Body {
             let feature = Feature { face: line.exit.1 as u32, ..Feature::default() };
             return (distance <= max_distance).then_some(Crossing { distance, feature, exiting: true });
         }
-        let all = line?.crossings(scale);
+        let line = line?;
+        let all = line.crossings(scale);
         let steepness = |c: &Crossing| self.surface(ray, c).normal.dot(ray.direction).abs();
         let departed = left.left_among(all.iter(), steepness);
         let next = match departed {
             Some(index) => all.iter().nth(index + 1),
             None => all.iter().find(|c| c.distance > 0.0),
+        };
+        let next = match next {
+            Some(crossing) if crossing.exiting == left.inward => next,
+            None if !left.inward => next,
+            _ => line.leave_at_once(left, scale).or(next),
         };
         let next = next.map(|c| Crossing { distance: c.distance.max(0.0), ..c });
         next.filter(|c| c.distance <= max_distance)

@@ -1,4 +1,4 @@
-use raysect_core::{Crossing, Feature};
+use raysect_core::{Crossing, Departure, Feature};
 
 use super::LensFace;
 
@@ -105,5 +105,23 @@ impl Line {
             found.push_pair(scaled(start), scaled(self.exit));
         }
         found
+    }
+
+    /// Where the body or the gap is too thin to be seen by a ray that starts on it: the face, of those that go through
+    /// its origin, that ends what the ray is in.
+    #[cold]
+    pub(super) fn leave_at_once(
+        &self,
+        departure: &Departure,
+        scale: impl Fn(f64) -> f64,
+    ) -> Option<Crossing> {
+        let of_hollow =
+            |(part, face): (Stretch, LensFace)| (if departure.inward { part.first } else { part.last }, face);
+        let whole = if departure.inward { self.exit } else { self.entry };
+        let ends = self.hollows.into_iter().flatten().map(of_hollow).chain([whole]);
+        ends.map(|(t, face)| (scale(t).abs(), face))
+            .filter(|(t, _)| *t <= 4.0 * departure.bound)
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, face)| crossing(0.0, face as u32, departure.inward))
     }
 }
