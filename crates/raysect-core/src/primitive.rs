@@ -41,6 +41,34 @@ pub struct Departure {
     pub feature: Feature,
 }
 
+impl Departure {
+    /// Which of the crossings in order is the one that is being left, if one is: of the right kind, rather on the face
+    /// that is left than on another, and rather near than far.
+    ///
+    /// `steepness` is the cosine between the ray and the surface at a crossing. A ray along a face is in doubt far along
+    /// its way, where it crosses other faces: these are left only if they may go through the origin of the ray.
+    pub fn left_among(
+        &self,
+        crossings: impl Iterator<Item = Crossing>,
+        steepness: impl Fn(&Crossing) -> f64,
+    ) -> Option<usize> {
+        let elsewhere =
+            |c: &Crossing| (c.feature.part, c.feature.face) != (self.feature.part, self.feature.face);
+        let candidates =
+            crossings.enumerate().filter(|(_, c)| c.exiting != self.inward && c.distance.abs() <= self.bound);
+        let (index, left) = candidates.min_by(|(_, a), (_, b)| {
+            elsewhere(a).cmp(&elsewhere(b)).then(a.distance.abs().total_cmp(&b.distance.abs()))
+        })?;
+        (!elsewhere(&left) || self.goes_through(&left, steepness)).then_some(index)
+    }
+
+    /// True if the surface at a crossing may go through the origin of the ray, as far as rounding can tell.
+    pub fn goes_through(&self, crossing: &Crossing, steepness: impl Fn(&Crossing) -> f64) -> bool {
+        let here = Crossing { distance: 0.0, feature: self.feature, exiting: !self.inward };
+        crossing.distance.abs() * steepness(crossing) <= 4.0 * self.bound * steepness(&here)
+    }
+}
+
 /// The surface at a crossing, in the local space of the shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surface {
@@ -149,8 +177,8 @@ pub trait Primitive: Send + Sync + 'static {
 
     /// The next crossing of a ray that starts on this very surface, up to `max_distance`.
     ///
-    /// The crossing that is being left is recognised by its kind (a ray that goes inward has just entered)
-    /// and by being nearest to the origin, not by an offset; the answer is the one that follows it.
+    /// The crossing that is being left is recognised by its kind (a ray that goes inward has just entered), by its piece
+    /// of the surface and by being nearest to the origin, not by an offset; the answer is the one that follows it.
     fn hit_after(
         &self,
         ray: &Ray,
@@ -160,12 +188,8 @@ pub trait Primitive: Send + Sync + 'static {
     ) -> Option<Crossing> {
         let mut all = scratch.take();
         self.crossings(ray, scratch, &mut all);
-        let left = all
-            .iter()
-            .enumerate()
-            .filter(|(_, c)| c.exiting != departure.inward && c.distance.abs() <= departure.bound)
-            .min_by(|a, b| a.1.distance.abs().total_cmp(&b.1.distance.abs()))
-            .map(|(index, _)| index);
+        let steepness = |c: &Crossing| self.surface(ray, c).normal.dot(ray.direction).abs();
+        let left = departure.left_among(all.iter().copied(), steepness);
         let next = match left {
             Some(index) => all.get(index + 1).copied(),
             None => all.iter().copied().find(|c| c.distance > 0.0),

@@ -24,6 +24,7 @@ pub struct Instance<A> {
     /// The common factor of all lengths, if its transform is a similarity.
     pub similarity: Option<f64>,
     convex: bool,
+    solid: bool,
     /// One over the factor of a similarity.
     shrink: f64,
     /// Largest stretch of a length by `to_world`, and the size of its translation [m]: what rounding acts upon.
@@ -49,6 +50,7 @@ impl<A> Instance<A> {
         let row = |i: usize| (0..3).map(|j| to_world.get(i, j).abs()).sum::<f64>();
         Self {
             convex: primitive.is_convex(),
+            solid: primitive.is_solid(),
             stretch: row(0).max(row(1)).max(row(2)),
             shift: to_world.origin().max_abs(),
             similarity: to_world.similarity_scale(),
@@ -69,6 +71,47 @@ impl<A> Instance<A> {
             direction: self.to_local.transform_vector(ray.direction),
             max_distance: ray.max_distance,
         }
+    }
+
+    /// The next crossing of a ray that starts on this shape.
+    ///
+    /// What goes into a solid comes out of it. Where the chord is so thin that rounding hides it, along the surface or
+    /// at an edge, it ends where it begins.
+    #[inline]
+    fn hit_after(
+        &self,
+        local: &Ray,
+        leaving: &Leaving,
+        limit: f64,
+        scratch: &mut Scratch,
+    ) -> Option<Crossing> {
+        let departure = &leaving.departure;
+        let next = self.primitive.hit_after(local, departure, limit, scratch);
+        let fits = next.map_or(!departure.inward, |c| c.exiting == departure.inward);
+        if fits || !self.solid { next } else { self.hidden_chord(local, leaving, next, limit, scratch) }
+    }
+
+    #[cold]
+    fn hidden_chord(
+        &self,
+        local: &Ray,
+        leaving: &Leaving,
+        next: Option<Crossing>,
+        limit: f64,
+        scratch: &mut Scratch,
+    ) -> Option<Crossing> {
+        let departure = &leaving.departure;
+        if next.is_some() && !leaving.grazes {
+            return next;
+        }
+        if next.is_none() && limit < f64::INFINITY {
+            // Most likely it ends beyond the limit. Only a ray that grazes is worth a second look.
+            let beyond = |s| self.primitive.hit_after(local, departure, f64::INFINITY, s);
+            if !leaving.grazes || beyond(scratch).is_some() {
+                return None;
+            }
+        }
+        Some(Crossing { distance: 0.0, feature: departure.feature, exiting: departure.inward })
     }
 }
 
@@ -114,6 +157,10 @@ impl SurfacePoint {
     }
 }
 
+/// Cosine below which a chord may be hidden by rounding: that of one as high as the rounding of its place, where a
+/// surface of a radius of 100 roundings is still one.
+const GRAZING: f64 = 0.1;
+
 /// How many surfaces at one place are remembered while a ray works its way through them.
 const CLUSTER: usize = 4;
 
@@ -126,6 +173,7 @@ const CLUSTER: usize = 4;
 #[derive(Debug, Clone, Copy)]
 pub struct Leaving {
     departure: Departure,
+    grazes: bool,
     instance: u32,
     clustered: u32,
     zone: f64,
@@ -141,13 +189,14 @@ impl Leaving {
     /// `before` is where the arriving ray itself came from.
     pub fn new(surface: &SurfacePoint, arrived: Vector3D, towards: Vector3D, before: Option<&Self>) -> Self {
         let cosine = surface.normal.dot(towards);
-        let departure = Departure {
-            inward: cosine < 0.0,
-            bound: surface.bound / cosine.abs().max(1e-12),
-            feature: surface.feature,
-        };
+        // A chord that is thinner than rounding may end where the normal still faces the ray: what goes straight on has
+        // passed it all the same.
+        let inward = if towards == arrived { !surface.exiting } else { cosine < 0.0 };
+        let departure =
+            Departure { inward, bound: surface.bound / cosine.abs().max(1e-12), feature: surface.feature };
         let mut leaving = Self {
             departure,
+            grazes: cosine.abs() < GRAZING,
             instance: surface.instance,
             clustered: 0,
             zone: surface.bound / cosine.abs().max(1e-3),
@@ -273,7 +322,7 @@ impl<A: Attachment> Scene<A> {
             if instance.convex && !leaving.departure.inward {
                 return None;
             }
-            return instance.primitive.hit_after(&instance.local(ray), &leaving.departure, limit, scratch);
+            return instance.hit_after(&instance.local(ray), leaving, limit, scratch);
         }
         let local = instance.local(ray);
         let crossing = instance.primitive.hit(&local, Interval::new(-leaving.zone, limit), scratch)?;

@@ -142,11 +142,14 @@ pub(crate) fn face_of(face: u32) -> Feature {
 /// becomes infinite as `a` vanishes. None if the polynomial has no linear part to speak of.
 ///
 /// The sum of `b` and the root never cancels (N. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed.,
-/// § 1.8); the discriminant is left to the caller, who knows a form of it without cancellation. A negative one counts
-/// as 0.
+/// § 1.8); the discriminant is left to the caller, who knows a form of it without cancellation. If it is negative both
+/// are the place of the extremum.
 #[inline]
 pub(crate) fn roots(a: f64, b: f64, c: f64, discriminant: f64) -> Option<(f64, f64)> {
-    let root = discriminant.max(0.0).sqrt();
+    if discriminant < 0.0 {
+        return Some((-b / a, -b / a));
+    }
+    let root = discriminant.sqrt();
     let q = if b > 0.0 { -(b + root) } else { root - b };
     (q != 0.0).then(|| (q / a, c / q))
 }

@@ -132,8 +132,9 @@ impl Composite {
         let first_of_b = both.len();
         self.b.crossings(ray, scratch, &mut both);
         let all = both.iter().enumerate().map(|(index, c)| self.as_own(c, index >= first_of_b));
+        let steepness = |c: &Crossing| self.surface(ray, c).normal.dot(ray.direction).abs();
         let nearest = all
-            .filter(|c| c.exiting == departure.inward && c.distance.abs() <= 4.0 * departure.bound)
+            .filter(|c| c.exiting == departure.inward && departure.goes_through(c, steepness))
             .min_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs()));
         scratch.give_back(both);
         nearest.map(|c| Crossing { distance: 0.0, ..c })
@@ -288,12 +289,8 @@ impl Primitive for Composite {
     ) -> Option<Crossing> {
         let mut all = scratch.take();
         self.crossings(ray, scratch, &mut all);
-        let left = all
-            .iter()
-            .enumerate()
-            .filter(|(_, c)| c.exiting != departure.inward && c.distance.abs() <= departure.bound)
-            .min_by(|a, b| a.1.distance.abs().total_cmp(&b.1.distance.abs()))
-            .map(|(index, _)| index);
+        let steepness = |c: &Crossing| self.surface(ray, c).normal.dot(ray.direction).abs();
+        let left = departure.left_among(all.iter().copied(), steepness);
         let next = match left {
             Some(index) => all.get(index + 1).copied(),
             None => all.iter().copied().find(|c| c.distance > 0.0),

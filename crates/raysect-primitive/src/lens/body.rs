@@ -239,17 +239,18 @@ impl Primitive for Body {
         if self.is_convex() {
             // A ray that goes inward has entered: it leaves by the nearest far side, however rounding has placed it.
             let line = line.filter(|_| left.inward)?;
-            let distance = scale(line.exit.0).max(0.0);
+            // A line that rounding has placed beside the lens leaves it where it touches it.
+            let touches = line.entry.0 > line.exit.0;
+            let distance = if touches { 0.0 } else { scale(line.exit.0).max(0.0) };
             let feature = Feature { face: line.exit.1 as u32, ..Feature::default() };
             return (distance <= max_distance).then_some(Crossing { distance, feature, exiting: true });
         }
         let line = line?;
         let all = line.crossings(scale);
-        let departed = (all.iter().enumerate())
-            .filter(|(_, c)| c.exiting != left.inward && c.distance.abs() <= left.bound)
-            .min_by(|a, b| a.1.distance.abs().total_cmp(&b.1.distance.abs()));
+        let steepness = |c: &Crossing| self.surface(ray, c).normal.dot(ray.direction).abs();
+        let departed = left.left_among(all.iter(), steepness);
         let next = match departed {
-            Some((index, _)) => all.iter().nth(index + 1),
+            Some(index) => all.iter().nth(index + 1),
             None => all.iter().find(|c| c.distance > 0.0),
         };
         let next = match next {

@@ -1,4 +1,4 @@
-use raysect_core::{BoundingBox3D, Departure, Interval, Leaving, Node, Surface, World};
+use raysect_core::{BoundingBox3D, Departure, Feature, Interval, Leaving, Node, Surface, World};
 use raysect_math::Normal3D;
 
 use super::*;
@@ -119,7 +119,9 @@ fn a_ray_in_a_wedge_thinner_than_rounding_leaves_at_once() {
         let direction = Vector3D::new(rng.range(-0.3, 0.3), rng.range(-0.3, 0.3), -1.0).normalise().unwrap();
         let normal = Normal3D::new(0.0, 0.0, 1.0);
         let bound = 1e-14;
-        let departure = Departure { inward: normal.dot(direction) < 0.0, bound, feature: Default::default() };
+        // The upper face of the block.
+        let feature = Feature { face: 5, ..Feature::default() };
+        let departure = Departure { inward: normal.dot(direction) < 0.0, bound, feature };
         let start = Ray::new(at, direction);
         let next = wedge.hit_after(&start, &departure, f64::INFINITY, &mut scratch);
         assert!(next.is_some_and(|n| n.exiting && n.distance <= 1e-11), "{start:?} {next:?}");
