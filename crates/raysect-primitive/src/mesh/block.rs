@@ -65,7 +65,12 @@ impl Triangles for Block<f64> {
 
     #[inline(always)]
     fn load<S: Simd>(&self, simd: S, axis: usize) -> [f64x4<S>; 3] {
-        [0, 1, 2].map(|corner| f64x4::from_slice(simd, &self.0[axis][corner]))
+        let plane = &self.0[axis];
+        [
+            f64x4::from_slice(simd, &plane[0]),
+            f64x4::from_slice(simd, &plane[1]),
+            f64x4::from_slice(simd, &plane[2]),
+        ]
     }
 
     fn corners(&self, lane: usize) -> [[f64; 3]; 3] {
@@ -82,17 +87,32 @@ pub(super) struct RayLanes<S: Simd> {
     axes: [usize; 3],
 }
 
+/// A number in every lane, for each axis. Written out: closures would be compiled without the vector instructions.
+#[inline(always)]
+fn splat<S: Simd>(simd: S, v: [f64; 3]) -> [f64x4<S>; 3] {
+    [f64x4::splat(simd, v[0]), f64x4::splat(simd, v[1]), f64x4::splat(simd, v[2])]
+}
+
+#[inline(always)]
+fn smaller<S: Simd>(a: f64x4<S>, b: f64x4<S>) -> f64x4<S> {
+    b.simd_lt(a).select(b, a)
+}
+
+#[inline(always)]
+fn larger<S: Simd>(a: f64x4<S>, b: f64x4<S>) -> f64x4<S> {
+    b.simd_gt(a).select(b, a)
+}
+
 impl<S: Simd> RayLanes<S> {
     #[inline(always)]
     pub(super) fn new(simd: S, ray: &ShearedRay) -> Self {
-        let splat = |x: f64| f64x4::splat(simd, x);
         let [a, b, c] = ray.axes;
-        let (o, s) = (ray.origin, ray.shear);
+        let o = ray.origin;
         Self {
             simd,
-            origin: [splat(o[a]), splat(o[b]), splat(o[c])],
-            shear: [splat(s[0]), splat(s[1]), splat(s[2])],
-            start: splat(ray.start),
+            origin: splat(simd, [o[a], o[b], o[c]]),
+            shear: splat(simd, ray.shear),
+            start: f64x4::splat(simd, ray.start),
             axes: ray.axes,
         }
     }
@@ -104,11 +124,12 @@ impl<S: Simd> RayLanes<S> {
         let simd = self.simd;
         let [ox, oy, oz] = self.origin;
         let [sx, sy, sz] = self.shear;
-        let x = block.load(simd, self.axes[0]).map(|p| p - ox);
-        let y = block.load(simd, self.axes[1]).map(|p| p - oy);
-        let z = block.load(simd, self.axes[2]).map(|p| p - oz);
-        let corner = |i: usize| (x[i] - sx * z[i], y[i] - sy * z[i]);
-        let ((ax, ay), (bx, by), (cx, cy)) = (corner(0), corner(1), corner(2));
+        let [ax, bx, cx] = block.load(simd, self.axes[0]);
+        let [ay, by, cy] = block.load(simd, self.axes[1]);
+        let [az, bz, cz] = block.load(simd, self.axes[2]);
+        let (az, bz, cz) = (az - oz, bz - oz, cz - oz);
+        let (ax, bx, cx) = (ax - ox - sx * az, bx - ox - sx * bz, cx - ox - sx * cz);
+        let (ay, by, cy) = (ay - oy - sy * az, by - oy - sy * bz, cy - oy - sy * cz);
         let u = cx * by - cy * bx;
         let v = ax * cy - ay * cx;
         let w = bx * ay - by * ax;
@@ -120,11 +141,9 @@ impl<S: Simd> RayLanes<S> {
         if met == 0 {
             return ([0.0; LEAF_ITEMS], 0, doubtful);
         }
-        let [az, bz, cz] = z.map(|z| sz * z);
+        let (az, bz, cz) = (sz * az, sz * bz, sz * cz);
         let total = u + v + w;
         let distance = (u * az + v * bz + w * cz) / total;
-        let smaller = |a: f64x4<S>, b: f64x4<S>| b.simd_lt(a).select(b, a);
-        let larger = |a: f64x4<S>, b: f64x4<S>| b.simd_gt(a).select(b, a);
         let (low, high) = (smaller(smaller(az, bz), cz), larger(larger(az, bz), cz));
         let distance = self.start + larger(smaller(distance, high), low);
         (distance.into(), met, doubtful)

@@ -22,19 +22,19 @@ pub struct TreeRay {
 
 /// Bound on what single precision does to a position in the frame: eight roundings of numbers up to two.
 const BLUR: f64 = 16.0 / (1u64 << 24) as f64;
-/// Components of a direction smaller than this, of one, are taken for this: it moves no point by more than a part of
-/// the blur.
-const LEAST: f64 = 1e-18;
+/// Components of a direction smaller than one over this, of one, are taken for that: it moves no point by more than a
+/// part of the blur.
+const MOST: f64 = 1e18;
 
 /// Where a line runs through a box, if it does; a little more on the safe side.
-fn passage(b: &BoundingBox3D, ray: &Ray) -> Option<(f64, f64)> {
-    let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
+#[inline(always)]
+fn passage(b: &BoundingBox3D, ray: &Ray, inverse: [f64; 3]) -> Option<(f64, f64)> {
+    let o = ray.origin.to_array();
     let (low, high) = (b.lower.to_array(), b.upper.to_array());
     let (mut first, mut last) = (f64::NEG_INFINITY, f64::INFINITY);
     for a in 0..3 {
-        let inverse = 1.0 / d[a];
-        let (t, u) = ((low[a] - o[a]) * inverse, (high[a] - o[a]) * inverse);
-        let (near, far) = if inverse < 0.0 { (u, t) } else { (t, u) };
+        let (t, u) = ((low[a] - o[a]) * inverse[a], (high[a] - o[a]) * inverse[a]);
+        let (near, far) = if inverse[a] < 0.0 { (u, t) } else { (t, u) };
         // Comparisons with the NaN of 0 · ∞ are false, which drops it.
         if near > first {
             first = near;
@@ -52,12 +52,13 @@ impl WideTree {
     /// interval.
     #[inline]
     pub fn prepare(&self, ray: &Ray, within: Interval) -> Option<TreeRay> {
-        let (first, last) = passage(&self.bounds, ray)?;
+        let d = ray.direction.to_array();
+        let inverse = [1.0 / d[0], 1.0 / d[1], 1.0 / d[2]];
+        let (first, last) = passage(&self.bounds, ray, inverse)?;
         let slack = 8.0 * f64::EPSILON * first.abs().max(last.abs());
         if first - slack > within.max || last + slack < within.min || !first.is_finite() {
             return None;
         }
-        let d = ray.direction.to_array();
         let largest = d[0].abs().max(d[1].abs()).max(d[2].abs());
         let speed = largest * self.frame.scale;
         let o = ray.origin.to_array();
@@ -75,9 +76,8 @@ impl WideTree {
         };
         for a in 0..3 {
             let origin = self.frame.map(entry[a], a);
-            let component = d[a] / largest;
-            let component = if component.abs() < LEAST { LEAST.copysign(component) } else { component };
-            let inverse = 1.0 / component;
+            let inverse = largest * inverse[a];
+            let inverse = if inverse.abs() < MOST { inverse } else { MOST.copysign(d[a]) };
             let blur = blur.copysign(inverse);
             prepared.inverse[a] = inverse as f32;
             prepared.near[a] = (-(origin + blur) * inverse) as f32;

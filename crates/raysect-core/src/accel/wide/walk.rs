@@ -25,6 +25,24 @@ struct Lanes<S: Simd> {
     min: f32x8<S>,
 }
 
+/// A number in every lane, for each axis. Written out: closures would be compiled without the vector instructions.
+#[inline(always)]
+fn splat<S: Simd>(simd: S, v: [f32; 3]) -> [f32x8<S>; 3] {
+    [f32x8::splat(simd, v[0]), f32x8::splat(simd, v[1]), f32x8::splat(simd, v[2])]
+}
+
+impl<S: Simd> Lanes<S> {
+    #[inline(always)]
+    fn new(simd: S, ray: &TreeRay) -> Self {
+        Self {
+            inverse: splat(simd, ray.inverse),
+            near: splat(simd, ray.near),
+            far: splat(simd, ray.far),
+            min: f32x8::splat(simd, ray.min),
+        }
+    }
+}
+
 impl WideTree {
     /// Shows `test` every leaf that may hold what a ray meets, nearer ones first as far as their boxes tell.
     #[inline(always)]
@@ -57,13 +75,7 @@ impl WideTree {
         stack: &mut [Waiting],
         test: &mut T,
     ) {
-        let each = |v: [f32; 3]| [0, 1, 2].map(|a| f32x8::splat(simd, v[a]));
-        let lanes = Lanes {
-            inverse: each(ray.inverse),
-            near: each(ray.near),
-            far: each(ray.far),
-            min: f32x8::splat(simd, ray.min),
-        };
+        let lanes = Lanes::new(simd, ray);
         let mut height = 0;
         let mut child = self.root;
         'next: loop {
