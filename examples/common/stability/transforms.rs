@@ -107,7 +107,7 @@ fn places(name: String, plain: Plain, shape: bodies::Shape, m: AffineMatrix3D) -
         world.add(Node::of(shape.clone(), ()).transform(m)).unwrap();
         // Others far away, for one or two shapes are tested without their boxes.
         for far in [-1e9, 1e9, 2e9] {
-            let reach = far * norm(&m) * plain.size();
+            let reach = far * norm(&m).max(1.0) * plain.size();
             world
                 .add(Node::of(Plain::Sphere(plain.size()).shape(), ()).transform(translate(reach, 0.0, 0.0)))
                 .unwrap();
