@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use raysect::core::{Interval, Primitive, Ray, Scratch};
-use raysect::math::{Rng, StreamKey};
+use raysect::math::{Rng, StreamKey, solve_cubic, solve_quadratic, solve_quartic};
 use raysect::optical::Path;
 use raysect::prelude::*;
 use std::hint::black_box;
@@ -21,6 +21,31 @@ fn random(c: &mut Criterion) {
         b.iter(|| {
             sample += 1;
             Rng::keyed(StreamKey { sample, ..StreamKey::default() }).uniform()
+        })
+    });
+}
+
+fn roots(c: &mut Criterion) {
+    let mut rng = Rng::new(1);
+    let polynomials: Vec<[f64; 5]> = (0..1000).map(|_| [0; 5].map(|_| rng.range(-1.0, 1.0))).collect();
+    let mut next = polynomials.iter().cycle();
+    let mut draw = move || *next.next().unwrap_or(&[1.0, 0.0, 0.0, 0.0, -1.0]);
+    c.bench_function("roots of a quadratic", |b| {
+        b.iter(|| {
+            let [p, q, r, ..] = draw();
+            solve_quadratic(p, q, r)
+        })
+    });
+    c.bench_function("roots of a cubic", |b| {
+        b.iter(|| {
+            let [p, q, r, s, _] = draw();
+            solve_cubic(p, q, r, s)
+        })
+    });
+    c.bench_function("roots of a quartic", |b| {
+        b.iter(|| {
+            let [p, q, r, s, t] = draw();
+            solve_quartic(p, q, r, s, t)
         })
     });
 }
@@ -66,5 +91,5 @@ fn paths(c: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, shapes, random, scenes, paths);
+criterion_group!(benches, shapes, random, roots, scenes, paths);
 criterion_main!(benches);

@@ -1,7 +1,7 @@
 use fearless_simd::{Level, Simd, dispatch};
 use raysect_math::Point3D;
 
-use super::wide::{LEAF_ITEMS, LeafTest, NO_ITEM, TreeRay, Waiting, WideTree};
+use super::wide::{LEAF_ITEMS, LeafTest, NO_ITEM, TraversalStack, TreeRay, WideTree};
 use super::{Accelerator, Slabs, TraversalRay, Visitor, slabs};
 use crate::{BoundingBox3D, Interval, Ray};
 
@@ -16,9 +16,6 @@ pub struct Tree {
     endless: Vec<u32>,
     level: Level,
 }
-
-/// Room for the walk of a tree of up to 9 levels; deeper ones take theirs from the heap.
-const STACK: usize = 64;
 
 fn is_endless(b: &BoundingBox3D) -> bool {
     let finite = b.lower.is_finite() && b.upper.is_finite() && b.largest_extent().is_finite();
@@ -88,15 +85,8 @@ impl Accelerator for Tree {
         let Some(tree_ray) = self.tree.prepare(&plain, Interval::new(ray.min, limit)) else { return };
         let end = tree_ray.limit(limit);
         let mut visit = Visit { tree: self, ray, tree_ray: &tree_ray, limit, visitor };
-        let mut near = [Waiting::default(); STACK];
-        let mut far = Vec::new();
-        let stack = if self.tree.stack_size() <= STACK {
-            &mut near[..]
-        } else {
-            far.resize(self.tree.stack_size(), Waiting::default());
-            &mut far[..]
-        };
-        dispatch!(self.level, simd => self.tree.walk_in(simd, &tree_ray, end, stack, &mut visit));
+        let mut stack = TraversalStack::default();
+        dispatch!(self.level, simd => self.tree.walk(simd, &tree_ray, end, &mut stack, &mut visit));
     }
 
     fn visit_containing(&self, point: Point3D, visitor: &mut dyn FnMut(u32)) {

@@ -191,20 +191,3 @@ proptest! {
         prop_assert_eq!(&solve(&scaled)[..], &expected[..]);
     }
 }
-
-/// For the table of costs: `cargo test -p raysect-math --release -- --ignored --nocapture costs`.
-#[test]
-#[ignore = "prints times"]
-fn costs() {
-    let mut rng = Rng::new(1);
-    let cases: Vec<[f64; 5]> = (0..1000).map(|_| [0; 5].map(|_| rng.range(-1.0, 1.0))).collect();
-    for degree in 2..=4 {
-        let (start, mut sum) = (std::time::Instant::now(), 0.0);
-        for _ in 0..1000 {
-            for c in &cases {
-                sum += std::hint::black_box(solve(&c[..=degree])).iter().sum::<f64>();
-            }
-        }
-        println!("degree {degree}: {:.0} ns ({sum})", start.elapsed().as_secs_f64() * 1e3);
-    }
-}

@@ -1,6 +1,5 @@
-use raysect_core::save::{SaveError, Saved, SceneWriter};
-
 use super::body::{Body, Form};
+use super::measures::two_curved_faces;
 use crate::PrimitiveError;
 use crate::inner::answers_by_inner;
 
@@ -43,62 +42,7 @@ impl BiConcave {
         )?;
         Ok(Self(body, front_curvature, back_curvature))
     }
-
-    /// The diameter [m].
-    pub fn diameter(&self) -> f64 {
-        self.0.diameter
-    }
-
-    /// Thickness on the axis [m].
-    #[doc(alias = "center_thickness")]
-    pub fn centre_thickness(&self) -> f64 {
-        self.0.centre_thickness
-    }
-
-    /// Thickness at the edge: length of the barrel [m].
-    pub fn edge_thickness(&self) -> f64 {
-        self.0.edge_thickness
-    }
-
-    /// Radius of curvature of the front surface [m].
-    pub fn front_curvature(&self) -> f64 {
-        self.1
-    }
-
-    /// Depth of the cap of the front surface, its sagitta [m].
-    pub fn front_thickness(&self) -> f64 {
-        self.0.front_sag()
-    }
-
-    /// Radius of curvature of the back surface [m].
-    pub fn back_curvature(&self) -> f64 {
-        self.2
-    }
-
-    /// Depth of the cap of the back surface, its sagitta [m].
-    pub fn back_thickness(&self) -> f64 {
-        self.0.back_sag()
-    }
-
-    /// Volume [m³].
-    pub fn volume(&self) -> f64 {
-        self.0.volume()
-    }
-
-    /// Area of both surfaces and the barrel [m²].
-    pub fn surface_area(&self) -> f64 {
-        self.0.surface_area()
-    }
 }
 
-impl BiConcave {
-    fn saved(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
-        Ok(Saved::new("BiConcave")
-            .number("diameter", self.diameter())
-            .number("centre_thickness", self.centre_thickness())
-            .number("front_curvature", self.front_curvature())
-            .number("back_curvature", self.back_curvature()))
-    }
-}
-
+two_curved_faces!(BiConcave);
 answers_by_inner!(BiConcave, saved);

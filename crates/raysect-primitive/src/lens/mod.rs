@@ -7,6 +7,7 @@ mod body;
 mod cap;
 mod face;
 mod line;
+mod measures;
 mod meniscus;
 mod plano_concave;
 mod plano_convex;

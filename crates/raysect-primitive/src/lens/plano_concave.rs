@@ -1,6 +1,5 @@
-use raysect_core::save::{SaveError, Saved, SceneWriter};
-
 use super::body::{Body, Form};
+use super::measures::one_curved_face;
 use crate::PrimitiveError;
 use crate::inner::answers_by_inner;
 
@@ -35,51 +34,7 @@ impl PlanoConcave {
         )?;
         Ok(Self(body, curvature))
     }
-
-    /// The diameter [m].
-    pub fn diameter(&self) -> f64 {
-        self.0.diameter
-    }
-
-    /// Thickness on the axis [m].
-    #[doc(alias = "center_thickness")]
-    pub fn centre_thickness(&self) -> f64 {
-        self.0.centre_thickness
-    }
-
-    /// Thickness at the edge: length of the barrel [m].
-    pub fn edge_thickness(&self) -> f64 {
-        self.0.edge_thickness
-    }
-
-    /// Radius of curvature of the curved surface [m].
-    pub fn curvature(&self) -> f64 {
-        self.1
-    }
-
-    /// Depth of the cap of the curved surface, its sagitta [m].
-    pub fn curve_thickness(&self) -> f64 {
-        self.0.front_sag()
-    }
-
-    /// Volume [m³].
-    pub fn volume(&self) -> f64 {
-        self.0.volume()
-    }
-
-    /// Area of both surfaces and the barrel [m²].
-    pub fn surface_area(&self) -> f64 {
-        self.0.surface_area()
-    }
 }
 
-impl PlanoConcave {
-    fn saved(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
-        Ok(Saved::new("PlanoConcave")
-            .number("diameter", self.diameter())
-            .number("centre_thickness", self.centre_thickness())
-            .number("curvature", self.curvature()))
-    }
-}
-
+one_curved_face!(PlanoConcave);
 answers_by_inner!(PlanoConcave, saved);

@@ -9,7 +9,6 @@ mod ray;
 mod walk;
 
 pub use ray::TreeRay;
-pub(in crate::accel) use walk::Waiting;
 pub use walk::{LeafTest, TraversalStack};
 
 use crate::BoundingBox3D;

@@ -11,11 +11,37 @@ pub trait LeafTest<S: Simd> {
 
 /// A child that waits for its turn, and the distance at which its box is met.
 #[derive(Debug, Clone, Copy, Default)]
-pub(in crate::accel) struct Waiting(Child, f32);
+struct Waiting(Child, f32);
 
-/// Room for one walk, reused.
-#[derive(Debug, Default)]
-pub struct TraversalStack(Vec<Waiting>);
+/// So many children wait in place, which is enough for a tree of nine levels.
+const IN_PLACE: usize = 64;
+
+/// Room for one walk, reused or made anew: it takes from the heap for trees deeper than usual only.
+#[derive(Debug)]
+pub struct TraversalStack {
+    near: [Waiting; IN_PLACE],
+    far: Vec<Waiting>,
+}
+
+impl Default for TraversalStack {
+    fn default() -> Self {
+        Self { near: [Waiting::default(); IN_PLACE], far: Vec::new() }
+    }
+}
+
+impl TraversalStack {
+    /// Room for so many children.
+    #[inline(always)]
+    fn room(&mut self, size: usize) -> &mut [Waiting] {
+        if size <= IN_PLACE {
+            return &mut self.near;
+        }
+        if self.far.len() < size {
+            self.far.resize(size, Waiting::default());
+        }
+        &mut self.far
+    }
+}
 
 /// A ray in every lane.
 struct Lanes<S: Simd> {
@@ -50,31 +76,12 @@ impl WideTree {
         &self,
         simd: S,
         ray: &TreeRay,
-        limit: f32,
+        mut limit: f32,
         stack: &mut TraversalStack,
         test: &mut T,
     ) {
-        if stack.0.len() < self.stack_size() {
-            stack.0.resize(self.stack_size(), Waiting::default());
-        }
-        self.walk_in(simd, ray, limit, &mut stack.0, test);
-    }
-
-    /// How many children wait at once at most.
-    pub(in crate::accel) fn stack_size(&self) -> usize {
-        (WIDTH - 1) * self.depth + 1
-    }
-
-    /// The same in room of at least [`stack_size`](Self::stack_size).
-    #[inline(always)]
-    pub(in crate::accel) fn walk_in<S: Simd, T: LeafTest<S>>(
-        &self,
-        simd: S,
-        ray: &TreeRay,
-        mut limit: f32,
-        stack: &mut [Waiting],
-        test: &mut T,
-    ) {
+        // Every level leaves all children but one behind.
+        let stack = stack.room((WIDTH - 1) * self.depth + 1);
         let lanes = Lanes::new(simd, ray);
         let mut height = 0;
         let mut child = self.root;
