@@ -16,6 +16,10 @@ pub use crate::optical::{
     Material, Materials, NullMaterial, Path, PathSettings, Ray, Scatter, Sellmeier, SpectralFunction,
     SpectralTable, Spectrum, SurfaceHit, UniformSurfaceEmitter, WithMaterial, World,
 };
+pub use crate::optical::{
+    Dispersion, HenyeyGreenstein, HomogeneousVolumeEmitter, InhomogeneousVolumeEmitter, ProfileVolume,
+    Rayleigh, UniformVolume,
+};
 pub use crate::primitive::{
     BiConcave, BiConvex, Cone, Cuboid, Cylinder, Intersect, Meniscus, Mesh, MeshData, Parabola, Place,
     PlanoConcave, PlanoConvex, Sphere, Subtract, Torus, Union,

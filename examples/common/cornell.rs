@@ -56,7 +56,9 @@ pub(crate) fn cornell_box(variant: Variant) -> raysect::Result<World> {
     Ok(world)
 }
 
-/// Where the camera stands: at z = −3.3, looking in.
+/// Where the camera stands: at z = −3.3, looking in. Glass has one index a slice, its mean, as in Raysect.
 pub(crate) fn camera(pixels: (usize, usize)) -> raysect::Result<PinholeCamera> {
-    Ok(PinholeCamera::new(pixels, 45.0)?.transform(translate(0.0, 0.0, -3.3)))
+    Ok(PinholeCamera::new(pixels, 45.0)?
+        .transform(translate(0.0, 0.0, -3.3))
+        .paths(PathSettings::default().dispersion(Dispersion::Mean)))
 }

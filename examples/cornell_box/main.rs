@@ -36,6 +36,9 @@ struct Arguments {
     /// What the two blocks are made of.
     #[arg(long, value_enum, default_value_t = Blocks::Glass)]
     variant: Blocks,
+    /// How the glass disperses: by its mean index, as in Raysect, or by a wavelength of each path.
+    #[arg(long, value_enum, default_value_t = Glass::Mean)]
+    dispersion: Glass,
     /// Goes on until the mean colour has this relative standard error, instead of a number of samples.
     #[arg(long)]
     stop_error: Option<f64>,
@@ -53,6 +56,12 @@ enum Blocks {
     Diffuse,
 }
 
+#[derive(Clone, Copy, ValueEnum)]
+enum Glass {
+    Mean,
+    Sampled,
+}
+
 fn main() -> raysect::Result<()> {
     let arguments = Arguments::parse();
     let variant = match arguments.variant {
@@ -66,6 +75,9 @@ fn main() -> raysect::Result<()> {
         .pixel_samples(arguments.samples)
         .seed(arguments.seed)
         .quiet(arguments.quiet);
+    if let Glass::Sampled = arguments.dispersion {
+        camera = camera.paths(PathSettings::default().dispersion(Dispersion::Sampled));
+    }
     if let Some(threads) = arguments.threads {
         camera = camera.threads(threads)?;
     }

@@ -10,4 +10,5 @@ mod lights;
 mod materials;
 mod plates;
 mod scenes;
+mod volumes;
 mod wrong;

@@ -1,7 +1,7 @@
 use std::fmt;
 
 use raysect_optical::illumination::Illumination;
-use raysect_optical::{LightSampling, World};
+use raysect_optical::{Dispersion, LightSampling, World};
 
 use crate::{Observer, ObserverError, Sensor};
 
@@ -48,15 +48,19 @@ impl Plan {
                 if slicing.slice_count() == 1 { "" } else { "s" },
             ),
         );
-        plan.line("dispersion", dispersion(known, slicing.bins(), slicing.slice_count()));
+        plan.line(
+            "dispersion",
+            dispersion(
+                known,
+                observer.path_settings().chosen_dispersion(),
+                slicing.bins(),
+                slicing.slice_count(),
+            ),
+        );
         plan.line("lights", lights(known, observer));
         plan.line(
             "volumes",
-            if known.any_medium {
-                "media along every piece of a path, solved exactly".to_owned()
-            } else {
-                "none: no containment is asked for".to_owned()
-            },
+            if known.any_medium { volumes(known) } else { "none: no containment is asked for".to_owned() },
         );
         plan.line(
             "shadows",
@@ -91,14 +95,28 @@ impl Plan {
     }
 }
 
-fn dispersion(known: &Illumination, bins: usize, slices: usize) -> String {
+fn dispersion(known: &Illumination, model: Dispersion, bins: usize, slices: usize) -> String {
     if !known.any_dispersion {
         return "none: nothing refracts by wavelength, so one ray for all bins is exact".to_owned();
+    }
+    if model == Dispersion::Sampled {
+        return "a wavelength is drawn in every bin; a path keeps one bin where it is dispersed".to_owned();
     }
     let all = format!(
         "the mean index of each of {slices} slices of {bins} bins; inside a slice it is not modelled"
     );
     if slices < bins { format!("{all} (more with spectral_rays)") } else { all }
+}
+
+fn volumes(known: &Illumination) -> String {
+    let line = match known.any_structure {
+        true => "solved along every piece of a path as their structure is declared",
+        false => "solved exactly along every piece of a path",
+    };
+    match known.any_scattering {
+        true => format!("media, {line}; paths are scattered in them"),
+        false => format!("media, {line}; none scatters"),
+    }
 }
 
 fn lights<S: Sensor>(known: &Illumination, observer: &Observer<S>) -> String {

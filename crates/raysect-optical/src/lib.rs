@@ -75,10 +75,12 @@ mod world;
 
 pub use error::OpticalError;
 pub use material::{
-    AbsorbingSurface, Bsdf, Checkerboard, Coefficients, Context, Dielectric, Facts, Lambert, Material,
-    Medium, MediumPoint, NullMaterial, Refraction, Scatter, SurfaceHit, UniformSurfaceEmitter,
+    AbsorbingSurface, Bsdf, Checkerboard, Coefficients, Context, Dielectric, Facts, HenyeyGreenstein,
+    HomogeneousVolumeEmitter, InhomogeneousVolumeEmitter, Lambert, Material, Medium, MediumPoint,
+    NullMaterial, PhaseFunction, ProfileVolume, Rayleigh, Refraction, Scatter, Structure, SurfaceHit,
+    UniformSurfaceEmitter, UniformVolume,
 };
-pub use path::{LEDGER_NUMBERS, Ledger, LightSampling, Path, PathSettings};
+pub use path::{Dispersion, LEDGER_NUMBERS, Ledger, LightSampling, Path, PathSettings};
 pub use ray::{Ray, SampledSpectrum};
 pub use register::{MaterialRegistry, OpticalEntry, SavedScene, register};
 pub use slice::{Slice, Slicing, SpectralTable, Table};

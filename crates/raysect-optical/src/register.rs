@@ -4,7 +4,7 @@ use raysect_core::save::{Entry, MakeError, Registry, SaveError};
 
 use crate::{
     AbsorbingSurface, Checkerboard, Dielectric, InterpolatedSf, Lambert, Material, NullMaterial, Optics,
-    Sellmeier, SpectralFunction, SpectralTable, UniformSurfaceEmitter,
+    Sellmeier, SpectralFunction, SpectralTable, UniformSurfaceEmitter, UniformVolume,
 };
 
 /// A world of shapes with materials as a file had it, and what was kept with it.
@@ -103,6 +103,16 @@ pub fn register(registry: &mut Registry) {
     });
     registry.material("Lambert", |entry| Ok(Lambert::new(entry.function("reflectivity")?)));
     registry.material("NullMaterial", |_| Ok(NullMaterial));
+    registry.material("UniformVolume", |entry| {
+        let mut volume = UniformVolume::new().importance(entry.number("importance")?);
+        if entry.has("emission") {
+            volume = volume.emission(entry.function("emission")?);
+        }
+        if entry.has("absorption") {
+            volume = volume.absorption(entry.function("absorption")?);
+        }
+        Ok(volume)
+    });
     registry.material("UniformSurfaceEmitter", |entry| {
         let emitter = UniformSurfaceEmitter::new(entry.function("spectrum")?, entry.number("scale")?);
         Ok(emitter.importance(entry.number("importance")?))

@@ -9,7 +9,8 @@ pub use light::{Light, LightSample, Vertex};
 pub(crate) use light::{light_density, sample_lights};
 pub use targets::Targets;
 
-use crate::{Facts, Optics};
+use crate::material::scatters;
+use crate::{Facts, Optics, Structure};
 
 /// What the integrator asks of an instance at every hit.
 #[derive(Debug, Clone, Copy)]
@@ -20,6 +21,10 @@ pub struct InstanceFacts {
     pub transparent: bool,
     /// True if something fills the volume.
     pub has_medium: bool,
+    /// True if what fills the volume has structure along a ray.
+    pub structured: bool,
+    /// True if what fills the volume scatters.
+    pub scatters: bool,
     /// Number among the lights, if the surface is sampled as one.
     pub light: Option<u32>,
 }
@@ -39,6 +44,10 @@ pub struct Illumination {
     pub any_transparent: bool,
     /// True if something fills a volume.
     pub any_medium: bool,
+    /// True if something that fills a volume has structure along a ray.
+    pub any_structure: bool,
+    /// True if something that fills a volume scatters.
+    pub any_scattering: bool,
     /// How many volumes refract.
     pub refracting: usize,
     /// True if something refracts by wavelength.
@@ -67,15 +76,20 @@ impl Illumination {
                     targets.push((sphere, known.importance));
                 }
             }
+            let medium = instance.attached.material().medium();
             facts.push(InstanceFacts {
+                structured: medium.is_some_and(|m| m.structure() != Structure::Homogeneous),
+                scatters: medium.is_some_and(scatters),
                 emits: known.emits,
                 transparent: known.transparent,
-                has_medium: instance.attached.material().medium().is_some(),
+                has_medium: medium.is_some(),
                 light: sampled.then(|| lights.len() as u32 - 1),
             });
         }
         Self {
             any_transparent: facts.iter().any(|f| f.transparent),
+            any_structure: facts.iter().any(|f| f.structured),
+            any_scattering: facts.iter().any(|f| f.scatters),
             any_medium: facts.iter().any(|f| f.has_medium),
             refracting: instances.iter().filter(|i| refracts(i)).count(),
             any_dispersion: known.iter().any(|f| f.disperses),

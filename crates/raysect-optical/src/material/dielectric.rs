@@ -140,7 +140,11 @@ impl Material for Dielectric {
     }
 
     fn facts(&self) -> Facts {
-        Facts { importance: self.importance, disperses: true, ..Facts::named(&self.name) }
+        Facts {
+            importance: self.importance,
+            disperses: self.refraction.disperses(),
+            ..Facts::named(&self.name)
+        }
     }
 
     fn check(&self, slice: &Slice) -> Result<(), OpticalError> {

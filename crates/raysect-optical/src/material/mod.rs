@@ -8,7 +8,9 @@ mod emitter;
 mod lambert;
 mod medium;
 mod null;
+mod phase_function;
 mod surface_hit;
+mod volume;
 
 use std::sync::Arc;
 
@@ -18,9 +20,12 @@ pub use checkerboard::Checkerboard;
 pub use dielectric::Dielectric;
 pub use emitter::UniformSurfaceEmitter;
 pub use lambert::Lambert;
-pub use medium::{Coefficients, Medium, MediumPoint, Refraction};
+pub(crate) use medium::scatters;
+pub use medium::{Coefficients, Medium, MediumPoint, Refraction, Structure};
 pub use null::NullMaterial;
+pub use phase_function::{HenyeyGreenstein, PhaseFunction, Rayleigh};
 pub use surface_hit::SurfaceHit;
+pub use volume::{HomogeneousVolumeEmitter, InhomogeneousVolumeEmitter, ProfileVolume, UniformVolume};
 
 use raysect_core::save::{SaveError, Saved, SceneObject, SceneWriter, short_name};
 use raysect_math::Vector3D;

@@ -22,10 +22,13 @@ pub struct Ledger {
     pub lost: u64,
     /// Times at which the surfaces passed did not agree with the media that a path was in.
     pub inconsistencies: u64,
+    /// Places at which a line integral was given up before it reached its tolerance, or a medium attenuated more than
+    /// the bound that it had declared.
+    pub unresolved: u64,
 }
 
 /// How many numbers a ledger is in a block of results.
-pub const LEDGER_NUMBERS: usize = 10;
+pub const LEDGER_NUMBERS: usize = 11;
 
 impl Ledger {
     /// The ledger as plain numbers, exact below 2⁵³.
@@ -41,6 +44,7 @@ impl Ledger {
             self.truncated_throughput,
             self.lost as f64,
             self.inconsistencies as f64,
+            self.unresolved as f64,
         ]
     }
 
@@ -56,5 +60,6 @@ impl Ledger {
         self.truncated_throughput += n[7];
         self.lost += n[8] as u64;
         self.inconsistencies += n[9] as u64;
+        self.unresolved += n[10] as u64;
     }
 }

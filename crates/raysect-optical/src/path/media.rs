@@ -3,7 +3,7 @@
 use raysect_core::{Leaving, Ray, SurfacePoint};
 
 use super::Path;
-use crate::{Coefficients, Medium, MediumPoint, Refraction, SurfaceHit};
+use crate::{Medium, Refraction, SpectralTable, SurfaceHit};
 
 /// Instances whose volumes overlap at one place.
 const CAPACITY: usize = 16;
@@ -16,12 +16,19 @@ pub(super) struct MediaList {
 }
 
 impl MediaList {
+    /// A list of one instance.
+    pub(super) fn of(instance: u32) -> Self {
+        let mut list = Self::default();
+        list.insert(instance);
+        list
+    }
+
     #[inline]
     pub(super) fn is_empty(&self) -> bool {
         self.count == 0
     }
 
-    fn as_slice(&self) -> &[u32] {
+    pub(super) fn as_slice(&self) -> &[u32] {
         &self.instances[..self.count]
     }
 
@@ -69,6 +76,19 @@ impl Coincident {
     }
 }
 
+/// The refractive indices on both sides of a surface, as functions of the wavelength.
+#[derive(Debug, Clone, Copy)]
+struct Interface<'a> {
+    near: &'a SpectralTable,
+    far: &'a SpectralTable,
+}
+
+impl Interface<'_> {
+    fn disperses(&self) -> bool {
+        !(self.near.function().is_constant() && self.far.function().is_constant())
+    }
+}
+
 impl<'a> Path<'a> {
     /// Finds the media that a path begins in: those whose surface it meets next from the inside. On a surface this
     /// is what the direction says, and it agrees with the crossings to come, whatever rounding makes of the origin.
@@ -95,13 +115,13 @@ impl<'a> Path<'a> {
         }
     }
 
-    fn medium(&self, instance: u32) -> Option<&'a dyn Medium> {
+    pub(super) fn medium(&self, instance: u32) -> Option<&'a dyn Medium> {
         let scene = self.scene;
         scene.instances[instance as usize].attached.material().medium()
     }
 
     /// The refracting medium that counts among those of a list.
-    fn refracting(&self, media: &MediaList) -> Option<(u32, &'a Refraction)> {
+    pub(super) fn refracting(&self, media: &MediaList) -> Option<(u32, &'a Refraction)> {
         let all = media
             .as_slice()
             .iter()
@@ -109,13 +129,13 @@ impl<'a> Path<'a> {
         all.max_by_key(|(i, r)| (r.priority, *i))
     }
 
-    /// The indices before and behind a surface of a refracting solid; none if the same medium counts on both sides.
+    /// What refracts before and behind a surface of a refracting solid; none if the same medium counts on both sides.
     fn interface(
         &self,
         media: &MediaList,
         surface: &SurfacePoint,
         others: &Coincident,
-    ) -> Option<(f64, f64)> {
+    ) -> Option<Interface<'a>> {
         let own = self.medium(surface.instance).and_then(|m| m.refraction())?;
         // What a surface says of itself is believed, whatever the list holds.
         let (mut before, mut behind) = (*media, *media);
@@ -133,10 +153,9 @@ impl<'a> Path<'a> {
         if near.map(|n| n.0) == far.map(|f| f.0) {
             return None;
         }
-        let index = |medium: Option<(u32, &Refraction)>| {
-            self.slice.mean(medium.map_or(&own.external_index, |(_, r)| &r.index))
-        };
-        Some((index(near), index(far)))
+        let index =
+            |medium: Option<(u32, &'a Refraction)>| medium.map_or(&own.external_index, |(_, r)| &r.index);
+        Some(Interface { near: index(near), far: index(far) })
     }
 
     /// The refracting surfaces of other solids that coincide with a surface, in the way of a path that goes straight
@@ -179,14 +198,17 @@ impl<'a> Path<'a> {
         }
         self.coincident = Coincident::default();
         if !compiled.facts[at.surface.instance as usize].has_medium || !self.refracts(at.surface.instance) {
-            let here = self.refracting(&self.media).map_or(1.0, |(_, r)| self.slice.mean(&r.index));
+            let here = self.refracting(&self.media).map_or(1.0, |(_, r)| self.index(&r.index));
             self.indices = (here, here);
             return true;
         }
         let others = if compiled.refracting > 1 { self.coincident(at) } else { Coincident::default() };
         match self.interface(&self.media, &at.surface, &others) {
-            Some(indices) => {
-                self.indices = indices;
+            Some(interface) => {
+                if self.disperses && self.kept.is_none() && interface.disperses() {
+                    self.keep_one_bin();
+                }
+                self.indices = (self.index(interface.near), self.index(interface.far));
                 self.coincident = others;
                 true
             }
@@ -213,67 +235,6 @@ impl<'a> Path<'a> {
         }
         media.cross(surface.instance, surface.exiting)
     }
-
-    /// Adds up the coefficients of the media of a list, with emission in `emitted`; of the refracting ones only that
-    /// which counts.
-    fn add_up(&mut self, media: &MediaList, ray: &Ray, distance: f64) {
-        let counts = self.refracting(media).map(|(i, _)| i);
-        let at = MediumPoint {
-            point: ray.point_at(0.5 * distance),
-            direction: -ray.direction,
-            at: self.context(),
-        };
-        let (mut emission, mut attenuation) =
-            (std::mem::take(&mut self.emitted), std::mem::take(&mut self.attenuation));
-        emission.fill(0.0);
-        attenuation.fill(0.0);
-        for &instance in media.as_slice() {
-            if let Some(medium) = self.medium(instance)
-                && (medium.refraction().is_none() || counts == Some(instance))
-            {
-                let mut out = Coefficients { emission: &mut emission, attenuation: &mut attenuation };
-                medium.coefficients(&at, &mut out);
-            }
-        }
-        (self.emitted, self.attenuation) = (emission, attenuation);
-    }
-
-    /// Solves dL/ds = j − α L along a piece of the path, exactly.
-    pub(super) fn cross_media(&mut self, ray: &Ray, distance: f64) {
-        if distance == 0.0 || distance.is_infinite() {
-            return;
-        }
-        let media = self.media;
-        self.add_up(&media, ray, distance);
-        for i in 0..self.throughput.len() {
-            let (emission, attenuation) = (self.emitted[i], self.attenuation[i]);
-            if emission != 0.0 {
-                self.radiance[i] += self.throughput[i] * emission * effective_length(attenuation, distance);
-            }
-            if attenuation != 0.0 {
-                self.throughput[i] *= (-attenuation * distance).exp();
-            }
-        }
-    }
-
-    /// Reduces `reflected` by what the media of a list let through.
-    pub(super) fn attenuate_shadow(&mut self, media: &MediaList, ray: &Ray, distance: f64) {
-        if media.is_empty() || distance == 0.0 {
-            return;
-        }
-        self.add_up(media, ray, distance);
-        for (f, attenuation) in self.reflected.iter_mut().zip(&self.attenuation) {
-            if *attenuation != 0.0 {
-                *f *= (-attenuation * distance).exp();
-            }
-        }
-    }
-}
-
-/// ∫₀ˢ exp(−α t) dt = (1 − exp(−α s)) / α, right down to α = 0.
-fn effective_length(attenuation: f64, distance: f64) -> f64 {
-    let depth = attenuation * distance;
-    if depth == 0.0 { distance } else { -(-depth).exp_m1() / attenuation }
 }
 
 #[cfg(test)]
@@ -288,13 +249,5 @@ mod tests {
         assert_eq!(list.as_slice(), [3, 7]);
         (10..24).for_each(|i| assert!(list.insert(i)));
         assert!(!list.insert(99) && list.remove(3));
-    }
-
-    #[test]
-    fn effective_lengths_have_their_limits() {
-        assert_eq!(effective_length(0.0, 2.0), 2.0);
-        assert!((effective_length(1e-12, 2.0) - 2.0).abs() < 1e-11);
-        assert!((effective_length(3.0, 2.0) - (1.0 - (-6.0f64).exp()) / 3.0).abs() < 1e-16);
-        assert_eq!(effective_length(f64::INFINITY, 2.0), 0.0);
     }
 }

@@ -1,6 +1,9 @@
 //! The path integrator: follows one path through a scene and adds up what it sees.
 
+mod collision;
+mod dispersion;
 mod ledger;
+mod line;
 mod media;
 mod scatter;
 mod settings;
@@ -8,7 +11,9 @@ mod settings;
 use raysect_core::{Leaving, Ray, Scratch};
 use raysect_math::{Point3D, Rng, Vector3D};
 
+pub use dispersion::Dispersion;
 pub use ledger::{LEDGER_NUMBERS, Ledger};
+use line::LineRoom;
 use media::{Coincident, MediaList};
 pub use settings::{LightSampling, PathSettings};
 
@@ -42,6 +47,9 @@ pub struct Path<'a> {
     reflected: Vec<f64>,
     emitted: Vec<f64>,
     attenuation: Vec<f64>,
+    /// Scattering by media, bin by bin.
+    scattering: Vec<f64>,
+    line: LineRoom,
     media: MediaList,
     /// The media whose boxes hold the last origin of a path: cameras send many rays from one place.
     start: Option<(Point3D, MediaList)>,
@@ -58,6 +66,9 @@ pub struct Path<'a> {
     /// The last place of scattering, and the density of the direction chosen there; none for a delta.
     vertex: Vertex,
     density: Option<f64>,
+    /// True if a wavelength is to be kept where something disperses; and the one that has been [nm].
+    disperses: bool,
+    kept: Option<f64>,
 }
 
 impl<'a> Path<'a> {
@@ -76,6 +87,8 @@ impl<'a> Path<'a> {
             reflected: zeros(),
             emitted: zeros(),
             attenuation: zeros(),
+            scattering: zeros(),
+            line: LineRoom::default(),
             media: MediaList::default(),
             start: None,
             indices: (1.0, 1.0),
@@ -86,6 +99,8 @@ impl<'a> Path<'a> {
             vertex: Vertex { point: Point3D::ORIGIN, instance: None },
             coincident: Coincident::default(),
             density: None,
+            disperses: scene.compiled.any_dispersion && settings.dispersion == Dispersion::Sampled,
+            kept: None,
         }
     }
 
@@ -143,7 +158,7 @@ impl<'a> Path<'a> {
             slice: self.slice,
             index_in: self.indices.0,
             index_out: self.indices.1,
-            wavelength: 0.5 * (self.slice.min + self.slice.max),
+            wavelength: self.kept.unwrap_or(0.5 * (self.slice.min + self.slice.max)),
         }
     }
 
@@ -166,6 +181,7 @@ impl<'a> Path<'a> {
         self.ledger.paths += 1;
         self.leaving = None;
         self.density = None;
+        self.kept = None;
         self.vertex = Vertex { point: ray.origin, instance: None };
         self.indices = (1.0, 1.0);
         let length = ray.direction.length();
@@ -179,7 +195,21 @@ impl<'a> Path<'a> {
             let hit = self.scene.hit(&ray, self.leaving.as_ref(), &mut self.scratch);
             if !self.media.is_empty() {
                 let distance = hit.map_or(ray.max_distance, |h| h.crossing.distance);
-                self.cross_media(&ray, distance);
+                let turbid = self.is_turbid(&self.media);
+                self.cross_media(&ray, distance, turbid);
+                if turbid && let Some(flight) = self.free_flight(&ray, distance) {
+                    let Some(direction) = self.scatter_in_volume(&ray, flight) else {
+                        self.ledger.absorbed += 1;
+                        return;
+                    };
+                    (self.leaving, passes, pieces) = (None, 0, false);
+                    self.depth += 1;
+                    if !self.survives() {
+                        return;
+                    }
+                    ray = Ray::new(ray.point_at(flight), direction);
+                    continue;
+                }
             }
             let Some(hit) = hit else {
                 // Volumes are closed: a ray that leaves one without a surface has lost its way.

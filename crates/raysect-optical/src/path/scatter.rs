@@ -1,11 +1,23 @@
 //! Scattering into a range of directions: light sampling, important directions and roulette for every material.
 
 use raysect_core::{Candidate, Leaving, Ray, SurfacePoint};
-use raysect_math::{Frame, Vector3D};
+use raysect_math::{Frame, Point3D, Vector3D};
 
+use super::media::MediaList;
 use super::{LightSampling, Path, heuristic, unit};
 use crate::illumination::{LightSample, Targets, Vertex, sample_lights};
 use crate::{Bsdf, Scatter, SurfaceHit};
+
+/// Where a path looks for a light.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Origin {
+    /// The point, on a surface or in a volume.
+    pub(super) point: Point3D,
+    /// How the ray leaves the surface, if there is one.
+    pub(super) leaving: Option<Leaving>,
+    /// The media that it goes into.
+    pub(super) media: MediaList,
+}
 
 impl Path<'_> {
     /// Scatters at a surface: looks for a light, then chooses where to go on.
@@ -23,7 +35,8 @@ impl Path<'_> {
                 bsdf.evaluate(incoming, outgoing, at, &mut self.reflected);
                 if self.reflected.iter().any(|f| *f > 0.0) {
                     let density = self.directional_density(bsdf, hit, incoming, outgoing, light.direction);
-                    self.add_light(hit, light, density);
+                    let from = self.origin(hit, light.direction);
+                    self.add_light(&from, light, density);
                 }
             }
         }
@@ -47,7 +60,7 @@ impl Path<'_> {
     /// True if lights are to be sampled. At the last scattering of a path that is cut off they are not: what it would
     /// have found by going on is missing then, and half an answer would only blur what the report says is missing.
     #[inline]
-    fn looks_for_lights(&self) -> bool {
+    pub(super) fn looks_for_lights(&self) -> bool {
         self.settings.light_sampling == LightSampling::Lights
             && !self.scene.compiled.lights.is_empty()
             && self.depth + 1 < self.settings.max_depth
@@ -73,16 +86,46 @@ impl Path<'_> {
         frame: &Frame,
         incoming: Vector3D,
     ) -> (Vector3D, Vector3D) {
-        if self.targets().is_some() && self.rng.probability(self.settings.important_path_weight) {
-            let mut rng = self.rng.clone();
-            let direction = self.targets().map(|t| t.sample(hit.surface.point, &mut rng));
-            self.rng = rng;
-            if let Some(direction) = direction {
-                return (frame.to_local(direction), unit(direction));
-            }
+        if let Some(direction) = self.aimed_direction(hit.surface.point) {
+            return (frame.to_local(direction), direction);
         }
         let outgoing = bsdf.sample(incoming, self.context(), &mut self.rng);
         (outgoing, unit(frame.to_world(outgoing)))
+    }
+
+    /// A direction towards something important, for the share of the paths that are aimed.
+    #[inline]
+    pub(super) fn aimed_direction(&mut self, from: Point3D) -> Option<Vector3D> {
+        if self.targets().is_none() || !self.rng.probability(self.settings.important_path_weight) {
+            return None;
+        }
+        let mut rng = self.rng.clone();
+        let direction = self.targets().map(|t| t.sample(from, &mut rng));
+        self.rng = rng;
+        direction.map(unit)
+    }
+
+    /// Density [1/sr] of a direction of which a share is aimed, and which has a density of its own.
+    #[inline]
+    pub(super) fn mixed_density(&self, from: Point3D, direction: Vector3D, own: f64) -> f64 {
+        match self.targets() {
+            None => own,
+            Some(targets) => {
+                let weight = self.settings.important_path_weight;
+                weight * targets.density(from, direction) + (1.0 - weight) * own
+            }
+        }
+    }
+
+    /// The place of a surface from which a light is looked for.
+    #[inline]
+    fn origin(&self, hit: &SurfaceHit, direction: Vector3D) -> Origin {
+        let mut media = self.media;
+        if self.scene.compiled.any_medium && hit.leads_through(direction) {
+            self.change_list(&mut media, &hit.surface);
+        }
+        let leaving = Leaving::new(&hit.surface, hit.direction, direction, self.leaving.as_ref());
+        Origin { point: hit.surface.point, leaving: Some(leaving), media }
     }
 
     /// Density [1/sr] of [`choose`](Self::choose).
@@ -95,49 +138,40 @@ impl Path<'_> {
         outgoing: Vector3D,
         direction: Vector3D,
     ) -> f64 {
-        let own = bsdf.pdf(incoming, outgoing, self.context());
-        match self.targets() {
-            None => own,
-            Some(targets) => {
-                let weight = self.settings.important_path_weight;
-                weight * targets.density(hit.surface.point, direction) + (1.0 - weight) * own
-            }
-        }
+        self.mixed_density(hit.surface.point, direction, bsdf.pdf(incoming, outgoing, self.context()))
     }
 
     /// Adds the light of a sampled direction, if nothing is in its way. `density` is that with which the path would
     /// have gone there by itself.
-    fn add_light(&mut self, hit: &SurfaceHit, light: &LightSample, density: f64) {
+    pub(super) fn add_light(&mut self, from: &Origin, light: &LightSample, density: f64) {
         let scene = self.scene;
         let instance = scene.compiled.lights[light.light as usize].instance;
-        let leaving = Leaving::new(&hit.surface, hit.direction, light.direction, self.leaving.as_ref());
-        let ray = Ray::new(hit.surface.point, light.direction);
+        let leaving = from.leaving.as_ref();
+        let ray = Ray::new(from.point, light.direction);
         self.ledger.shadow_rays += 1;
         let found;
         let surface = match &light.surface {
             Some(surface) => surface,
             None => {
-                let crossing =
-                    scene.hit_instance(instance, &ray, Some(&leaving), f64::INFINITY, &mut self.scratch);
+                let crossing = scene.hit_instance(instance, &ray, leaving, f64::INFINITY, &mut self.scratch);
                 let Some(crossing) = crossing else { return };
                 found = scene.finish(&ray, &Candidate { instance, crossing });
                 &found
             }
         };
         let ray = ray.with_max_distance(surface.distance);
-        let into_medium = self.scene.compiled.any_medium && hit.leads_through(light.direction);
-        if self.scene.compiled.any_transparent || into_medium || !self.media.is_empty() {
-            if !self.walk_to_light(hit, &ray, &leaving, instance) {
+        if self.scene.compiled.any_transparent || !from.media.is_empty() {
+            if !self.walk_to_light(from, &ray, instance) {
                 return;
             }
         } else {
             // A point drawn on a light that is not convex may lie behind another part of it.
             let own = light.surface.is_some() && !scene.is_convex(instance);
             let short = ray.with_max_distance(surface.distance * (1.0 - 1e-9));
-            if own && scene.is_blocked(&short, Some(&leaving), &mut self.scratch, |i| i == instance) {
+            if own && scene.is_blocked(&short, leaving, &mut self.scratch, |i| i == instance) {
                 return;
             }
-            if scene.is_blocked(&ray, Some(&leaving), &mut self.scratch, |i| i != instance) {
+            if scene.is_blocked(&ray, leaving, &mut self.scratch, |i| i != instance) {
                 return;
             }
         }
@@ -155,15 +189,11 @@ impl Path<'_> {
 
     /// Follows a shadow ray through transparent surfaces and media to a light; reduces `reflected` by what the media
     /// let through. `false` if something opaque stands in the way.
-    fn walk_to_light(&mut self, hit: &SurfaceHit, ray: &Ray, leaving: &Leaving, light: u32) -> bool {
+    fn walk_to_light(&mut self, from: &Origin, ray: &Ray, light: u32) -> bool {
         let scene = self.scene;
-        let (mut ray, mut leaving) = (*ray, *leaving);
-        let mut media = self.media;
-        if hit.leads_through(ray.direction) {
-            self.change_list(&mut media, &hit.surface);
-        }
+        let (mut ray, mut leaving, mut media) = (*ray, from.leaving, from.media);
         loop {
-            let next = scene.hit(&ray, Some(&leaving), &mut self.scratch);
+            let next = scene.hit(&ray, leaving.as_ref(), &mut self.scratch);
             let distance = next.map_or(ray.max_distance, |h| h.crossing.distance);
             self.attenuate_shadow(&media, &ray, distance);
             let Some(next) = next else { return true };
@@ -178,7 +208,7 @@ impl Path<'_> {
                 return false;
             }
             self.change_list(&mut media, &surface);
-            leaving = Leaving::new(&surface, ray.direction, ray.direction, Some(&leaving));
+            leaving = Some(Leaving::new(&surface, ray.direction, ray.direction, leaving.as_ref()));
             ray =
                 Ray::new(surface.point, ray.direction).with_max_distance(ray.max_distance - surface.distance);
         }

@@ -1,6 +1,7 @@
 use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
 use raysect_math::MathError;
 
+use super::Dispersion;
 use crate::OpticalError;
 
 /// How paths look for light.
@@ -24,17 +25,21 @@ pub struct PathSettings {
     pub(crate) roulette_threshold: f64,
     pub(crate) light_sampling: LightSampling,
     pub(crate) important_path_weight: f64,
+    pub(crate) dispersion: Dispersion,
+    pub(crate) line_tolerance: f64,
 }
 
 impl Default for PathSettings {
     /// Depth 500; roulette below a throughput of 20 % where a direction has been chosen; lights sampled; 20 % of the
-    /// paths aimed at what else is important.
+    /// paths aimed at what else is important; wavelengths sampled where something disperses; line integrals to 1e-6.
     fn default() -> Self {
         Self {
             max_depth: 500,
             roulette_threshold: 0.2,
             light_sampling: LightSampling::Lights,
             important_path_weight: 0.2,
+            dispersion: Dispersion::Sampled,
+            line_tolerance: 1e-6,
         }
     }
 }
@@ -77,6 +82,26 @@ impl PathSettings {
         MathError::check(admitted, weight, "important path weight", "", "0 … 1, without 1")?;
         Ok(Self { important_path_weight: weight, ..self })
     }
+
+    /// How paths are refracted where the index depends on the wavelength.
+    pub fn dispersion(self, dispersion: Dispersion) -> Self {
+        Self { dispersion, ..self }
+    }
+
+    /// How paths are refracted where the index depends on the wavelength, as set.
+    pub fn chosen_dispersion(&self) -> Dispersion {
+        self.dispersion
+    }
+
+    /// Relative error of the integrals along rays through media whose structure is declared, of each piece of a path.
+    ///
+    /// # Errors
+    /// [`OpticalError::Math`] unless it lies in 1e-12 … 0.1.
+    pub fn line_tolerance(self, tolerance: f64) -> Result<Self, OpticalError> {
+        let admitted = (1e-12..=0.1).contains(&tolerance);
+        MathError::check(admitted, tolerance, "tolerance of line integrals", "", "1e-12 … 0.1")?;
+        Ok(Self { line_tolerance: tolerance, ..self })
+    }
 }
 
 /// What a file calls the ways of looking for light.
@@ -86,12 +111,18 @@ const SAMPLINGS: [(&str, LightSampling); 3] = [
     ("off", LightSampling::Off),
 ];
 
+/// What a file calls the ways of dispersing.
+const DISPERSIONS: [(&str, Dispersion); 2] = [("sampled", Dispersion::Sampled), ("mean", Dispersion::Mean)];
+
 impl Storable for PathSettings {
     const KIND: &'static str = "PathSettings";
 
     fn save(&self, saved: Saved, _: &mut SceneWriter) -> Result<Saved, SaveError> {
         let sampling = SAMPLINGS.iter().find(|(_, s)| *s == self.light_sampling).map_or("", |(name, _)| name);
+        let dispersion = DISPERSIONS.iter().find(|(_, d)| *d == self.dispersion).map_or("", |(name, _)| name);
         Ok(saved
+            .text("dispersion", dispersion)
+            .number("line_tolerance", self.line_tolerance)
             .count("max_depth", self.max_depth.into())
             .number("roulette_threshold", self.roulette_threshold)
             .text("light_sampling", sampling)
@@ -104,6 +135,8 @@ impl Storable for PathSettings {
             .max_depth(entry.integer("max_depth")?)
             .roulette_threshold(entry.number("roulette_threshold")?)?
             .light_sampling(sampling)
+            .dispersion(entry.choice("dispersion", &DISPERSIONS)?)
+            .line_tolerance(entry.number("line_tolerance")?)?
             .important_path_weight(entry.number("important_path_weight")?)?)
     }
 }

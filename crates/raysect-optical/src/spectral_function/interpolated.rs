@@ -147,6 +147,10 @@ impl SpectralFunction for InterpolatedSf {
         self.primitive(max) - self.primitive(min)
     }
 
+    fn is_constant(&self) -> bool {
+        self.values.windows(2).all(|v| v[0] == v[1])
+    }
+
     fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
         let saved = Saved::new("InterpolatedSf").numbers("wavelengths", &self.wavelengths);
         Ok(saved.numbers("values", &self.values))

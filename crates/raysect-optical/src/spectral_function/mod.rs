@@ -46,6 +46,11 @@ pub trait SpectralFunction: Send + Sync + 'static {
         (0..bins).map(|i| self.average(edge(i), edge(i + 1))).collect()
     }
 
+    /// True if it is known to have the same value at all wavelengths.
+    fn is_constant(&self) -> bool {
+        false
+    }
+
     /// What a file needs to know to make it again; see [`raysect_core::save`]. Closures cannot be saved.
     ///
     /// # Errors
@@ -65,6 +70,9 @@ impl SpectralFunction for f64 {
     }
     fn average(&self, _: f64, _: f64) -> f64 {
         *self
+    }
+    fn is_constant(&self) -> bool {
+        true
     }
     fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
         Ok(Saved::new("Constant").number("value", *self))
@@ -86,6 +94,9 @@ impl SpectralFunction for Arc<dyn SpectralFunction> {
     }
     fn average(&self, min: f64, max: f64) -> f64 {
         (**self).average(min, max)
+    }
+    fn is_constant(&self) -> bool {
+        (**self).is_constant()
     }
     fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
         writer.shared(self, |function, writer| function.save(writer))

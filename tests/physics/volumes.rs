@@ -1,0 +1,257 @@
+//! Volumes: line integrals through structure, scattering, and dispersion.
+
+use std::f64::consts::TAU;
+
+use raysect::core::Node;
+use raysect::math::{Point3D, Rng, Statistics, StreamKey, Vector3D};
+use raysect::optical::{
+    Context, Dispersion, HenyeyGreenstein, InhomogeneousVolumeEmitter, LightSampling, Optics, Path,
+    PathSettings, ProfileVolume, Ray, Rayleigh, Sellmeier, Slicing, UniformVolume, WithMaterial, World,
+};
+use raysect::primitive::{Cuboid, Sphere};
+
+use crate::check::{Demand, Probe, accept};
+use crate::scenes::{ball, cuboid, dome, lamp, world};
+
+/// A sheet of emission in a box of 1 m: Gaussian of standard deviation `width`, or a top hat that wide.
+#[derive(Debug, Clone, Copy)]
+struct Sheet {
+    place: f64,
+    width: f64,
+    tilt: Vector3D,
+    gaussian: bool,
+}
+
+impl Sheet {
+    fn draw(rng: &mut Rng) -> Self {
+        let cosine = rng.range(0.3, 1.0);
+        let (sine, angle) = ((1.0 - cosine * cosine).sqrt(), TAU * rng.uniform());
+        Self {
+            place: rng.range(0.2, 0.8),
+            width: 10f64.powf(rng.range(0.3e-3f64.log10(), 20e-3f64.log10())),
+            tilt: Vector3D::new(sine * angle.cos(), sine * angle.sin(), cosine),
+            gaussian: rng.probability(0.5),
+        }
+    }
+
+    fn value(&self, p: Point3D) -> f64 {
+        let t = (p.x * self.tilt.x + p.y * self.tilt.y + (p.z - self.place) * self.tilt.z) / self.width;
+        match self.gaussian {
+            true => (-0.5 * t * t).exp(),
+            false => f64::from(t.abs() < 0.5),
+        }
+    }
+
+    /// The integral along the z axis, whose ends are many widths away.
+    fn expected(&self) -> f64 {
+        let along = self.width / self.tilt.z;
+        if self.gaussian { along * TAU.sqrt() } else { along }
+    }
+}
+
+fn sheet_box(emitter: impl raysect::optical::Material) -> World {
+    world([cuboid([-0.5, -0.5, 0.0], [0.5, 0.5, 1.0]).material(emitter)])
+}
+
+fn emission(sheet: Sheet) -> impl Fn(Point3D, Vector3D, Context<'_>, &mut [f64]) + Send + Sync + 'static {
+    move |p, _, _, bins| bins.iter_mut().for_each(|b| *b += sheet.value(p))
+}
+
+/// Statistics of paths along the axis.
+fn read(world: &World, count: u64, seed: u64) -> Statistics {
+    let slices = Slicing::new(500.0, 501.0, 1, 1).unwrap().slices();
+    let settings = PathSettings::default();
+    let mut path = Path::new(world.scene().unwrap(), &slices[0], &settings);
+    let ray = raysect::core::Ray::new(Point3D::new(0.0, 0.0, -0.3), Vector3D::Z);
+    let mut all = Statistics::new();
+    for sample in 0..count {
+        all.add(path.follow(&ray, Rng::keyed(StreamKey { seed, sample, ..StreamKey::default() }))[0]);
+    }
+    assert_eq!(path.ledger().unresolved, 0);
+    all
+}
+
+#[test]
+fn declared_sheets_are_integrated_to_the_tolerance() {
+    let mut rng = Rng::new(7);
+    for _ in 0..500 {
+        let sheet = Sheet::draw(&mut rng);
+        let emitter = InhomogeneousVolumeEmitter::length_scale(sheet.width, emission(sheet)).unwrap();
+        let off = read(&sheet_box(emitter), 1, 1).mean() / sheet.expected() - 1.0;
+        assert!(off.abs() < 1e-6, "{sheet:?}: off by {off:e}");
+    }
+}
+
+#[test]
+fn the_trapezium_rule_misses_sheets_and_a_wrong_declaration_too() {
+    let mut rng = Rng::new(7);
+    let (mut trapezium, mut wrong) = (0, 0);
+    for _ in 0..100 {
+        let sheet = Sheet::draw(&mut rng);
+        let off = |world: &World| (read(world, 1, 1).mean() / sheet.expected() - 1.0).abs() > 1e-3;
+        let steps = InhomogeneousVolumeEmitter::trapezium(0.01, 5, emission(sheet)).unwrap();
+        trapezium += usize::from(off(&sheet_box(steps)));
+        let coarse = InhomogeneousVolumeEmitter::length_scale(1.0, emission(sheet)).unwrap();
+        wrong += usize::from(off(&sheet_box(coarse)));
+    }
+    assert!(trapezium > 30 && wrong > 10, "{trapezium} {wrong}");
+}
+
+#[test]
+fn jittered_sheets_have_no_bias_and_error_bars_that_cover() {
+    let (mut rng, mut covered, count) = (Rng::new(8), 0, 1000);
+    let mut scores = Statistics::new();
+    for seed in 0..count {
+        let sheet = Sheet::draw(&mut rng);
+        let emitter = InhomogeneousVolumeEmitter::jittered(0.01, emission(sheet)).unwrap();
+        let found = read(&sheet_box(emitter), 400, seed);
+        let z = (found.mean() - sheet.expected()) / found.error();
+        covered += usize::from(z.abs() < 1.96);
+        scores.add(z);
+    }
+    let share = covered as f64 / count as f64;
+    // 95 ± 1 % of infinitely many; a thousand scatter by 0.7 %.
+    assert!((share - 0.95).abs() < 0.01 + 2.0 * 0.007, "{share}");
+    assert!(scores.mean().abs() < 0.3, "{scores}");
+}
+
+#[test]
+fn declared_attenuation_and_emission_are_solved_together() {
+    // Along the axis of the box the density is 1 + cos(2 π z): ∫ = 1 m, and j/α is constant: L = (j/α)(1 − e^−τ).
+    let uniform = UniformVolume::emitter(6.0).absorption(3.0);
+    let density = |p: Point3D| 1.0 + (TAU * p.z).cos();
+    let profile = ProfileVolume::new(uniform, density, 2.0, 0.2).unwrap();
+    let found = read(&sheet_box(profile), 1, 1).mean();
+    assert!((found / (2.0 * (1.0 - (-3.0f64).exp())) - 1.0).abs() < 1e-6, "{found}");
+}
+
+/// A ball of fog in a furnace of radiance one: whatever scatters without loss reads one.
+fn furnace(fog: impl raysect::optical::Material) -> World {
+    world([dome(), ball([0.0; 3], 1.0, fog)])
+}
+
+#[test]
+fn scattering_in_a_furnace_keeps_the_radiance() {
+    let even = UniformVolume::new().scattering(2.0, HenyeyGreenstein::isotropic());
+    let forward = UniformVolume::new().scattering(5.0, HenyeyGreenstein::new(0.8).unwrap());
+    let rayleigh = UniformVolume::new().scattering(1.0, Rayleigh);
+    // In equilibrium with the furnace: emission j = α L.
+    let warm = UniformVolume::new().emission(0.7).absorption(0.7).scattering(2.0, Rayleigh);
+    let cloud = |p: Point3D| 0.5 + 0.5 * (5.0 * p.x).sin() * (4.0 * p.z).cos();
+    let profile = ProfileVolume::new(warm.clone(), cloud, 1.0, 0.1).unwrap();
+    let probe = Probe::new(20_000);
+    for (name, scene) in [
+        ("even", furnace(even)),
+        ("forward", furnace(forward)),
+        ("Rayleigh", furnace(rayleigh)),
+        ("warm", furnace(warm)),
+        ("cloud", furnace(profile)),
+    ] {
+        for light in [LightSampling::Off, LightSampling::Lights] {
+            let found = probe.clone().light(light).along(&scene, [0.1, 0.2, -5.0], [0.0, 0.02, 1.0]);
+            accept(format!("{name} {light:?}"), 1.0, Demand::Mean, &found);
+        }
+    }
+}
+
+#[test]
+fn a_phase_function_that_does_not_integrate_to_one_is_found_out() {
+    struct Bright;
+    impl raysect::optical::PhaseFunction for Bright {
+        fn sample(&self, incoming: Vector3D, rng: &mut Rng) -> Vector3D {
+            HenyeyGreenstein::isotropic().sample(incoming, rng)
+        }
+        fn pdf(&self, _: Vector3D, outgoing: Vector3D) -> f64 {
+            (1.0 + 0.3 * outgoing.z) / (2.0 * TAU)
+        }
+    }
+    // Seen along z from a lamp in a small part of the sky the density claimed is not that of the samples.
+    let scene = world([
+        ball([0.0, 0.0, 5.0], 2.0, lamp()),
+        ball([0.0; 3], 1.0, UniformVolume::new().scattering(2.0, Bright)),
+    ]);
+    let right = world([
+        ball([0.0, 0.0, 5.0], 2.0, lamp()),
+        ball([0.0; 3], 1.0, UniformVolume::new().scattering(2.0, HenyeyGreenstein::isotropic())),
+    ]);
+    let probe = Probe::new(40_000);
+    let read = |s: &World, l| probe.clone().light(l).along(s, [0.0, -5.0, 0.0], [0.0, 1.0, 0.0]);
+    let (lights, off) = (read(&scene, LightSampling::Lights), read(&scene, LightSampling::Off));
+    let error = lights.radiance.error().hypot(off.radiance.error());
+    assert!(
+        (lights.radiance.mean() - off.radiance.mean()).abs() > 4.0 * error,
+        "{} {}",
+        lights.radiance,
+        off.radiance
+    );
+    let (lights, off) = (read(&right, LightSampling::Lights), read(&right, LightSampling::Off));
+    let error = lights.radiance.error().hypot(off.radiance.error());
+    let difference = lights.radiance.mean() - off.radiance.mean();
+    assert!(error < 0.03 * off.radiance.mean(), "{} {}", lights.radiance, off.radiance);
+    assert!(difference.abs() < 4.0 * error, "{} {}", lights.radiance, off.radiance);
+}
+
+#[test]
+fn single_scattering_of_a_thin_ball_has_its_closed_form() {
+    // A lamp of radiance 1 far away lights a thin ball: L = σ s p E, with E = π (R/d)².
+    let sigma = 1e-3;
+    let scene = world([
+        ball([0.0, 0.0, 50.0], 1.0, lamp()),
+        ball([0.0; 3], 1.0, UniformVolume::new().scattering(sigma, Rayleigh)),
+    ]);
+    // Half of the paths of 2 m would be unscattered 500 times: the fog is looked at by its share.
+    let found = Probe::new(3_000_000).along(&scene, [0.0, -5.0, 0.0], [0.0, 1.0, 0.0]);
+    let irradiance = std::f64::consts::PI / 2500.0;
+    let phase = 3.0 / (16.0 * std::f64::consts::PI);
+    let expected = sigma * 2.0 * phase * irradiance;
+    let z = (found.radiance.mean() / expected - 1.0) / (found.radiance.error() / expected);
+    assert!(found.radiance.error() < 0.02 * expected, "{}", found.radiance);
+    assert!(z.abs() < 4.0 + 0.002 * expected / found.radiance.error(), "{} {expected}", found.radiance);
+}
+
+/// A prism of heavy flint before a lamp behind a slit, seen from the other side.
+fn prism_scene() -> World {
+    let flint = Sellmeier::new([1.73759695, 0.313747346, 1.89878101], [0.013188707, 0.0623068142, 155.23629]);
+    let glass = raysect::optical::Dielectric::new(flint.unwrap(), 1.0).unwrap();
+    let node: Node<Optics> = Sphere::new(1.0).unwrap().material(glass);
+    let lamp = Cuboid::new(Point3D::new(-0.5, -0.2, 3.0), Point3D::new(0.5, 0.2, 3.1)).unwrap();
+    world([node, lamp.material(raysect::optical::UniformSurfaceEmitter::new(1.0, 1.0))])
+}
+
+#[test]
+fn a_wide_bin_is_the_average_of_narrow_ones_where_wavelengths_are_sampled() {
+    let world = prism_scene();
+    let (origin, direction) = (Point3D::new(0.0, 0.84, -5.0), Vector3D::Z);
+    let ray = Ray::new(origin, direction).spectrum(380.0, 740.0, 1);
+    let settings = |d| PathSettings::default().dispersion(d);
+    let sampled = ray.clone().settings(settings(Dispersion::Sampled)).sample(&world, 20_000).unwrap();
+    let mean = ray.clone().settings(settings(Dispersion::Mean)).sample(&world, 2000).unwrap();
+    let (mut fine, mut variance) = (0.0, 0.0);
+    for i in 0..360 {
+        let (low, high) = (380.0 + f64::from(i), 381.0 + f64::from(i));
+        let narrow = ray.clone().spectrum(low, high, 1).settings(settings(Dispersion::Mean)).seed(i as u64);
+        let found = narrow.sample(&world, 200).unwrap();
+        fine += found.mean.samples()[0] / 360.0;
+        variance += (found.error[0] / 360.0).powi(2);
+    }
+    let z = |found: &raysect::optical::SampledSpectrum| {
+        (found.mean.samples()[0] - fine) / (found.error[0].powi(2) + variance).sqrt()
+    };
+    assert!(sampled.error[0] < 0.02 * fine, "{sampled:?}");
+    assert!(z(&sampled).abs() < 4.0, "{} {fine}", sampled.mean.samples()[0]);
+    assert!(z(&mean).abs() > 10.0, "{} {fine}", mean.mean.samples()[0]);
+}
+
+#[test]
+fn bins_that_are_dispersed_together_are_right_each() {
+    let world = prism_scene();
+    let ray = Ray::new(Point3D::new(0.0, 0.84, -5.0), Vector3D::Z).spectrum(380.0, 740.0, 6);
+    let together = ray.sample(&world, 60_000).unwrap();
+    for bin in 0..6 {
+        let (low, high) = (380.0 + 60.0 * bin as f64, 440.0 + 60.0 * bin as f64);
+        let alone = ray.clone().spectrum(low, high, 1).seed(9).sample(&world, 10_000).unwrap();
+        let (a, b) = (together.mean.samples()[bin], alone.mean.samples()[0]);
+        let error = together.error[bin].hypot(alone.error[0]);
+        assert!((a - b).abs() <= 4.0 * error, "bin {bin}: {a} and {b} ± {error}");
+    }
+}
