@@ -375,7 +375,8 @@ impl<'a> Path<'a> {
         (from, to, halvings): (f64, f64, u32),
         count: f64,
     ) {
-        let (tolerance, width) = (self.settings.line_tolerance, to - from);
+        // At a jump the difference of two rules is up to ten times smaller than their error.
+        let (tolerance, width) = (self.settings.line_tolerance / 30.0, to - from);
         self.fill_cell(room, media, ray, from, to, 0);
         let dark = room.scale.iter().fold(f64::INFINITY, |a: f64, &s| if s > 0.0 { a.min(s) } else { a });
         let [emission, attenuation] = room.cells[0].peak;
