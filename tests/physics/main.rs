@@ -9,5 +9,8 @@ mod irradiance;
 mod lights;
 mod materials;
 mod plates;
+mod readings;
 mod scenes;
+mod sensors;
 mod wrong;
+mod wrong_sensors;
