@@ -72,12 +72,12 @@ impl Sensor for Ccd {
 
     #[inline]
     fn pdf(&self, pixel: usize, origin: Point3D, direction: Vector3D) -> Option<f64> {
-        Some(hemisphere::pdf_cosine(direction) * self.raster.pdf(pixel, [origin.x, origin.y]))
+        Some(hemisphere::pdf_cosine(direction) * self.raster.pdf(pixel, [origin.x, origin.y], 0.0))
     }
 
     #[inline]
     fn origin_pdf(&self, pixel: usize, origin: Point3D) -> Option<f64> {
-        Some(self.raster.pdf(pixel, [origin.x, origin.y]))
+        Some(self.raster.pdf(pixel, [origin.x, origin.y], 0.0))
     }
 
     #[inline]

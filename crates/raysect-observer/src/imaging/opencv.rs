@@ -172,7 +172,9 @@ impl Sensor for OpenCv {
         let of_camera = Vector3D::new(column(0), column(1), column(2));
         let met = self.model.density(of_camera).map_or(0.0, |([u, v], density)| {
             let (column, row) = ((pixel % self.columns) as f64, (pixel / self.columns) as f64);
-            let slack = 64.0 * f64::EPSILON * (self.columns.max(self.rows) as f64 + u.abs().max(v.abs()));
+            let focal = self.model.matrix[0][0].max(self.model.matrix[1][1]);
+            let size = focal + self.columns.max(self.rows) as f64 + u.abs().max(v.abs());
+            let slack = 64.0 * f64::EPSILON * size;
             let inside = (u - column).abs() <= 0.5 + slack && (v - row).abs() <= 0.5 + slack;
             if inside { density } else { 0.0 }
         });

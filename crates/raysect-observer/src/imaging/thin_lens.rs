@@ -147,7 +147,7 @@ impl Sensor for ThinLens {
         }
         let distance = self.focus / z;
         let place = [origin.x + distance * x, origin.y + distance * y];
-        Some(self.raster.pdf(pixel, place) * (distance * distance / z))
+        Some(self.raster.pdf(pixel, place, self.radius) * (distance * distance / z))
     }
 
     fn etendue(&self, pixel: usize) -> Option<f64> {
@@ -201,9 +201,12 @@ mod tests {
     #[test]
     fn the_etendue_is_that_of_the_rays() {
         // Wide, fast, close; and of one pixel.
-        for (pixels, view, radius, focus) in
-            [((3, 5), 70.0, 0.5, 1.0), ((1, 1), 120.0, 2.0, 1.0), ((64, 2), 20.0, 1e-3, 5.0)]
-        {
+        for (pixels, view, radius, focus) in [
+            ((3, 5), 70.0, 0.5, 1.0),
+            ((1, 1), 120.0, 2.0, 1.0),
+            ((64, 2), 20.0, 1e-3, 5.0),
+            ((2, 2), 1e-3, 0.5, 1.0),
+        ] {
             let camera = ThinLensCamera::new(pixels, view, radius, focus).unwrap();
             check_sensor(camera.sensor(), 100_000, 1).unwrap();
         }
