@@ -10,6 +10,11 @@ pub use crate::observer::{
     CancelToken, Estimate, Frame, Observer, PinholeCamera, Pipeline, Pipelines, PowerPipeline2D,
     RadiancePipeline2D, RenderReport, RgbPipeline2D, Scope, Sensor, Stop, minutes, seconds,
 };
+pub use crate::observer::{
+    CcdArray, FibreOptic, MeshCamera, MeshPixel, OpenCvCamera, OrthographicCamera, Pixel, SightLine,
+    Sightline, SightlineArray, Target, Targeted, TargetedCcdArray, TargetedPixel, ThinLensCamera,
+    VectorCamera,
+};
 pub use crate::optical::library::schott;
 pub use crate::optical::{
     AbsorbingSurface, Bsdf, Checkerboard, Context, Dielectric, Facts, InterpolatedSf, Lambert, LightSampling,

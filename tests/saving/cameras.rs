@@ -19,8 +19,9 @@ fn again<T: Storable>(world: &World, value: &T) -> (String, String) {
     (text(&scene.world, &value), first)
 }
 
+/// Asserts that a value comes back with every bit.
 #[track_caller]
-fn comes_back<T: Storable>(value: &T) {
+pub(crate) fn comes_back<T: Storable>(value: &T) {
     let (after, before) = again(&World::new(), value);
     assert_eq!(after, before);
 }

@@ -8,6 +8,7 @@ mod cornell_box;
 mod faults;
 mod kinds;
 mod mutations;
+mod sensors;
 mod sharing;
 mod users;
 

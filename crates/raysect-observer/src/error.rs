@@ -81,4 +81,25 @@ pub enum ObserverError {
         /// How many pixels there are.
         expected: usize,
     },
+    /// A corner of a pixel that the distortion of a lens reaches twice or not at all.
+    #[error(
+        "the upper left corner of the pixel in column {column}, row {row} cannot be undistorted: the picture is folded there or before"
+    )]
+    Distortion {
+        /// Column, counted from 0; one after the last for the right border.
+        column: usize,
+        /// Row, counted from 0; one after the last for the lower border.
+        row: usize,
+    },
+    /// A sensor that cannot be aimed.
+    #[error("pixel {pixel} of this {sensor} does not say how its directions are spread: it cannot be aimed")]
+    OneWay {
+        /// What the sensor is.
+        sensor: &'static str,
+        /// The first such pixel.
+        pixel: usize,
+    },
+    /// A node that should be a shape.
+    #[error("{0} has no shape to aim at")]
+    NoShape(String),
 }

@@ -58,6 +58,7 @@ pub mod file;
 mod frame;
 mod frame_files;
 mod imaging;
+mod nonimaging;
 mod observe;
 mod observer;
 mod pipeline;
@@ -67,11 +68,21 @@ mod report;
 mod sensor;
 mod stop;
 mod strata;
+mod target;
+mod targeted;
 pub mod testing;
 
 pub use error::ObserverError;
 pub use frame::{BLOCK, Estimate, Frame};
-pub use imaging::{Pinhole, PinholeCamera};
+pub use imaging::{
+    Ccd, CcdArray, OpenCv, OpenCvCamera, Orthographic, OrthographicCamera, Pinhole, PinholeCamera, Sightline,
+    SightlineArray, Sightlines, TargetedCcdArray, ThinLens, ThinLensCamera, VectorCamera, Vectors,
+};
+pub(crate) use nonimaging::etendue_of_cone;
+pub use nonimaging::{
+    Fibre, FibreOptic, Line, MeshCamera, MeshPatches, MeshPixel, MeshWhole, Pixel, Rectangle, SightLine,
+    TargetedPixel,
+};
 pub use observer::{CancelToken, Observer};
 pub use pipeline::{
     Measurement, Pipeline, Pipelines, PowerPipeline, PowerPipeline2D, RadiancePipeline, RadiancePipeline2D,
@@ -82,3 +93,5 @@ pub use progress::Progress;
 pub use report::{Convergence, RenderReport};
 pub use sensor::{FrameShape, Sensor};
 pub use stop::{Scope, Stop, minutes, seconds};
+pub use target::Target;
+pub use targeted::Targeted;

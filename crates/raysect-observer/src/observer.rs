@@ -248,6 +248,28 @@ impl<S: Sensor> Observer<S> {
         Session::new(self, world, pipelines)?.observe_until(&stop)
     }
 
+    /// The same around another sensor.
+    pub(crate) fn try_map<T: Sensor>(
+        self,
+        map: impl FnOnce(S) -> Result<T, ObserverError>,
+    ) -> Result<Observer<T>, ObserverError> {
+        Ok(Observer {
+            sensor: map(self.sensor)?,
+            transform: self.transform,
+            parent: self.parent,
+            range: self.range,
+            bins: self.bins,
+            rays: self.rays,
+            pixel_samples: self.pixel_samples,
+            seed: self.seed,
+            paths: self.paths,
+            engine: self.engine,
+            quiet: self.quiet,
+            watcher: self.watcher,
+            cancel: self.cancel,
+        })
+    }
+
     pub(crate) fn path_settings(&self) -> &PathSettings {
         &self.paths
     }

@@ -67,6 +67,20 @@ pub trait Sensor: Send + Sync {
     /// begin at one point or go one way only.
     fn pdf(&self, pixel: usize, origin: Point3D, direction: Vector3D) -> Option<f64>;
 
+    /// Density of the origins of its rays [1/m²]; none for a sensor whose rays begin at one point, and for one that
+    /// does not want to be [`Targeted`](crate::Targeted).
+    fn origin_pdf(&self, _pixel: usize, _origin: Point3D) -> Option<f64> {
+        None
+    }
+
+    /// Density of the directions of the rays that begin at an origin [1/sr], by which other directions can be mixed in
+    /// ([`Targeted`](crate::Targeted)); [`pdf`](Self::pdf) over [`origin_pdf`](Self::origin_pdf) by default, none for
+    /// a sensor that looks one way only.
+    fn direction_pdf(&self, pixel: usize, origin: Point3D, direction: Vector3D) -> Option<f64> {
+        let (pdf, origins) = (self.pdf(pixel, origin, direction)?, self.origin_pdf(pixel, origin)?);
+        Some(if origins > 0.0 { pdf / origins } else { 0.0 })
+    }
+
     /// Relative sensitivity to light that arrives against `direction` at `origin`.
     fn response(&self, _pixel: usize, _origin: Point3D, _direction: Vector3D) -> f64 {
         1.0
