@@ -9,22 +9,34 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Over exactly these values, which must be finite; over ±½ about them if they are equal.
+    /// Over exactly these values, which must be finite; over ±½ about them if they are as good as equal.
     pub(super) fn over(low: f64, high: f64) -> Self {
-        let (low, high) = if high > low { (low, high) } else { (low - half(low), low + half(low)) };
-        let step = nice_step((high - low) / 6.0);
-        let (first, last) = ((low / step).ceil(), (high / step).floor());
+        Self::with_least_step(low, high, 0.0)
+    }
+
+    /// Over numbered things, with marks at whole numbers.
+    pub(super) fn counting(low: f64, high: f64) -> Self {
+        Self::with_least_step(low, high, 1.0)
+    }
+
+    fn with_least_step(low: f64, high: f64, least: f64) -> Self {
+        let largest = low.abs().max(high.abs());
+        // Differences below that have no digits that a mark could show.
+        let apart = high - low > 1e-9 * largest;
+        let (low, high) = if apart { (low, high) } else { (low - half(low), low + half(low)) };
+        let step = nice_step(((high - low) / 6.0).max(least));
+        // A multiple of the step that rounding has put outside is still a mark.
+        let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
         let count = (last - first).clamp(0.0, 20.0) as usize + 1;
         let ticks: Vec<f64> = (0..count).map(|i| (first + i as f64) * step).collect();
-        let largest = low.abs().max(high.abs());
-        let power = largest.log10().floor() as i32;
+        let power = low.abs().max(high.abs()).log10().floor() as i32;
         let exponent = if (-3..5).contains(&power) { 0 } else { power };
         Self { low, high, ticks, step, exponent }
     }
 
     /// Over these values and a little more, from zero if none is negative and they come near it.
     pub(super) fn around(low: f64, high: f64) -> Self {
-        let margin = 0.05 * (high - low).max(f64::MIN_POSITIVE);
+        let margin = 0.05 * (high - low);
         let from_zero = low >= 0.0 && low < 0.5 * high;
         Self::over(if from_zero { 0.0 } else { low - margin }, high + margin)
     }
@@ -37,7 +49,7 @@ impl Axis {
     /// Value and label of each mark.
     pub(super) fn marks(&self) -> Vec<(f64, String)> {
         let scale = 10f64.powi(self.exponent);
-        let digits = (-(self.step / scale).log10().floor()).clamp(0.0, 12.0) as usize;
+        let digits = (-((self.step / scale).log10() + 1e-9).floor()).clamp(0.0, 12.0) as usize;
         let label = |tick: f64| {
             let text = format!("{:.digits$}", tick / scale);
             // Rounding may leave a zero its sign.
@@ -110,6 +122,13 @@ mod tests {
     }
 
     #[test]
+    fn numbered_things_have_marks_at_whole_numbers() {
+        assert_eq!(labels(&Axis::counting(0.0, 3.0)), ["0", "1", "2", "3"]);
+        assert_eq!(labels(&Axis::counting(-1.0, 0.0)), ["−1", "0"]);
+        assert_eq!(labels(&Axis::counting(0.0, 300.0)), ["0", "50", "100", "150", "200", "250", "300"]);
+    }
+
+    #[test]
     fn small_and_large_values_have_their_power_of_ten_in_the_title() {
         let small = Axis::over(0.0, 4.2e-7);
         assert_eq!(labels(&small)[..3], ["0", "1", "2"]);
@@ -123,5 +142,6 @@ mod tests {
         assert_eq!(Axis::around(0.1, 4.0).low, 0.0);
         assert!(Axis::around(3.9, 4.0).low > 3.8);
         assert!(Axis::around(-1.0, 4.0).low < -1.0);
+        assert_eq!((Axis::around(0.0, 0.0).low, Axis::around(1.0, 1.0 + 1e-15).low), (-0.5, 0.5));
     }
 }
