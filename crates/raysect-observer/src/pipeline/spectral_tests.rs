@@ -168,7 +168,7 @@ fn pictures_follow_the_spectral_convention_of_openexr() {
     assert!(blue > 5.0 * red.abs() && blue > 0.0);
     let attributes = &image.layer_data[0].attributes.other;
     for name in ["spectralLayoutVersion", "emissiveUnits", "raysect:unit", "raysect:bin_width_nm"] {
-        let there = attributes.keys().any(|key| key.to_string() == name);
+        let there = attributes.keys().any(|key| key == name);
         assert!(there, "{name}");
     }
 }

@@ -69,7 +69,7 @@ impl Axis {
         }
         let power = format!("10{}", superscript(self.exponent));
         match label.rsplit_once('[') {
-            Some((name, unit)) if unit == "]" => format!("{name}[{power}]"),
+            Some((name, "]")) => format!("{name}[{power}]"),
             Some((name, unit)) => format!("{name}[{power} {unit}"),
             None => format!("{label} [{power}]"),
         }
