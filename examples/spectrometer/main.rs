@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Parser;
 use raysect::prelude::*;
 
-/// Observes a mercury lamp in front of a white wall: its left, its middle, and the wall beside it.
+/// Observes a mercury lamp in front of a white wall: the wall beside it, its edge, and its middle.
 #[derive(Parser)]
 struct Arguments {
     /// Relative standard error of the power of each line, at which to stop.
@@ -74,7 +74,7 @@ fn main() -> raysect::Result<()> {
     }
     power.save(file("spectrometer.csv"))?;
     power.save(file("spectrometer.npz"))?;
-    radiance.save_plot(file("wall.svg"), &[2])?;
+    radiance.save_plot(file("wall.svg"), &[0])?;
     lines.save(file("lines.csv"))?;
     println!("wrote spectrometer.csv, .npz, .svg, wall.svg and lines.csv in {}", arguments.out.display());
     Ok(())
