@@ -11,7 +11,7 @@ mod materials;
 mod plates;
 mod readings;
 mod scenes;
-mod volumes;
 mod sensors;
+mod volumes;
 mod wrong;
 mod wrong_sensors;

@@ -84,7 +84,12 @@ fn pipelines_come_back_without_their_samples() {
     let filter = InterpolatedSf::new([400.0, 500.0], [0.1, 0.9]).unwrap();
     comes_back(&PowerPipeline2D::new());
     comes_back(&PowerPipeline2D::new().filter(filter.clone()));
-    comes_back(&RadiancePipeline2D::new().filter(filter));
+    comes_back(&RadiancePipeline2D::new().filter(filter.clone()));
+    comes_back(&BayerPipeline2D::new(filter.clone(), 0.5, 0.25).preview("bayer.png"));
+    comes_back(&SpectralPowerPipeline::new().preview("a.csv"));
+    comes_back(&SpectralRadiancePipeline::new());
+    comes_back(&FunctionalPipeline::photons().band("all", 100.0, 1000.0).unwrap());
+    comes_back(&FunctionalPipeline::radiance().functional("slope", filter.clone()).functional("one", 1.0));
     comes_back(&RgbPipeline2D::new().observer(CieObserver::FiveNanometres).preview("a.png"));
     comes_back(&RgbPipeline2D::new().unsaturated_fraction(0.95).unwrap());
     comes_back(&RgbPipeline2D::new().sensitivity(3.5).unwrap());
@@ -97,6 +102,30 @@ fn pipelines_come_back_without_their_samples() {
     writer.keep("radiance", &seen).unwrap();
     let read: RadiancePipeline2D = read(&writer.to_json()).unwrap().get("radiance").unwrap();
     assert!(read.frame().is_empty() && !seen.frame().is_empty());
+}
+
+#[test]
+fn displays_of_pipelines_come_back() {
+    let displays = [
+        MonoDisplay::new(),
+        MonoDisplay::new().colours(ColourMap::Inferno).gamma(1.0).unwrap(),
+        MonoDisplay::new().unsaturated_fraction(0.9).unwrap().black_point(0.1).unwrap(),
+        MonoDisplay::new().black_point(-3.0).unwrap().white_point(-1.0).unwrap(),
+    ];
+    let mut texts = std::collections::BTreeSet::new();
+    for display in displays {
+        comes_back(&PowerPipeline2D::new().display(display).preview("a.png"));
+        comes_back(&RadiancePipeline2D::new().display(display));
+        comes_back(&FunctionalPipeline::power().display(display));
+        texts.insert(again(&World::new(), &BayerPipeline2D::new(1.0, 1.0, 1.0).display(display)).0);
+    }
+    assert_eq!(texts.len(), 4);
+    // A spectrum of radiance is none of power.
+    let mut writer = SceneWriter::new(&World::new()).unwrap();
+    writer.keep("radiance", &SpectralRadiancePipeline::new()).unwrap();
+    let scene = read(&writer.to_json()).unwrap();
+    assert!(scene.get::<SpectralPowerPipeline>("radiance").is_err());
+    assert!(scene.get::<SpectralRadiancePipeline>("radiance").is_ok());
 }
 
 #[test]

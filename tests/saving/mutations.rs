@@ -54,6 +54,9 @@ fn text() -> String {
     writer.keep("camera", &pinhole.etendue_map(vec![1.0; 6]).unwrap()).unwrap();
     writer.keep("rgb", &RgbPipeline2D::new()).unwrap();
     writer.keep("power", &PowerPipeline2D::new().filter(0.5)).unwrap();
+    let bands = FunctionalPipeline::power().band("blue", 400.0, 500.0).unwrap().functional("half", 0.5);
+    writer.keep("bands", &bands).unwrap();
+    writer.keep("bayer", &BayerPipeline2D::new(0.5, 0.25, 1.0)).unwrap();
     writer.to_json()
 }
 
@@ -95,6 +98,7 @@ fn use_up(text: &str) -> bool {
     let Ok(scene) = read(text) else { return false };
     let camera = scene.get::<PinholeCamera>("camera");
     let _ = (scene.get::<RgbPipeline2D>("rgb"), scene.get::<PowerPipeline2D>("power"), scene.world.scene());
+    let _ = (scene.get::<FunctionalPipeline>("bands"), scene.get::<BayerPipeline2D>("bayer"));
     if let Ok(camera) = camera {
         let _ = camera.to_root(&scene.world);
     }

@@ -53,6 +53,7 @@
 //! }
 //! ```
 
+mod display;
 mod error;
 pub mod file;
 mod frame;
@@ -63,6 +64,8 @@ mod observe;
 mod observer;
 mod pipeline;
 mod plan;
+#[cfg(feature = "plot")]
+pub mod plot;
 mod progress;
 mod report;
 mod sensor;
@@ -72,8 +75,10 @@ mod target;
 mod targeted;
 pub mod testing;
 
+pub use display::{ColourMap, MonoDisplay};
 pub use error::ObserverError;
 pub use frame::{BLOCK, Estimate, Frame};
+pub use frame_files::Shown;
 pub use imaging::{
     Ccd, CcdArray, OpenCv, OpenCvCamera, Orthographic, OrthographicCamera, Pinhole, PinholeCamera, Sightline,
     SightlineArray, Sightlines, TargetedCcdArray, ThinLens, ThinLensCamera, VectorCamera, Vectors,
@@ -85,8 +90,11 @@ pub use nonimaging::{
 };
 pub use observer::{CancelToken, Observer};
 pub use pipeline::{
-    Measurement, Pipeline, Pipelines, PowerPipeline, PowerPipeline2D, RadiancePipeline, RadiancePipeline2D,
-    RgbPipeline2D,
+    BayerPipeline2D, FunctionalPipeline, Measurement, Pipeline, Pipelines, PowerPipeline, PowerPipeline0D,
+    PowerPipeline1D, PowerPipeline2D, RadiancePipeline, RadiancePipeline0D, RadiancePipeline1D,
+    RadiancePipeline2D, RgbPipeline2D, SpectralPipeline, SpectralPowerPipeline, SpectralPowerPipeline0D,
+    SpectralPowerPipeline1D, SpectralPowerPipeline2D, SpectralRadiancePipeline, SpectralRadiancePipeline0D,
+    SpectralRadiancePipeline1D, SpectralRadiancePipeline2D,
 };
 pub use plan::Plan;
 pub use progress::Progress;

@@ -48,12 +48,30 @@ fn save(
     bytes: &[u8],
     colour: ExtendedColorType,
 ) -> Result<(), FileError> {
+    let encoded = encode(path, width, height, bytes, colour)?;
+    write_atomically(path, |writer| writer.write_all(&encoded))
+}
+
+/// The bytes of a PNG file of 8 bits per channel; the path is for messages.
+#[cfg(feature = "plot")]
+pub(crate) fn png_rgb8(path: &Path, width: usize, height: usize, rgb: &[u8]) -> Result<Vec<u8>, FileError> {
+    FileError::check_shape(path, "the picture", &[height, width, 3], rgb.len())?;
+    encode(path, width, height, rgb, ExtendedColorType::Rgb8)
+}
+
+fn encode(
+    path: &Path,
+    width: usize,
+    height: usize,
+    bytes: &[u8],
+    colour: ExtendedColorType,
+) -> Result<Vec<u8>, FileError> {
     let [columns, rows] = [side(path, "width", width)?, side(path, "height", height)?];
     let mut encoded = Vec::new();
     PngEncoder::new(&mut encoded)
         .write_image(bytes, columns, rows, colour)
         .map_err(|error| FileError::encode(path, error))?;
-    write_atomically(path, |writer| writer.write_all(&encoded))
+    Ok(encoded)
 }
 
 fn side(path: &Path, name: &str, length: usize) -> Result<u32, FileError> {

@@ -79,6 +79,7 @@ impl<'a, S: Sensor> Session<'a, S> {
         for pipeline in &mut list {
             let channels = pipeline.channels(&slicing);
             pipeline.frame_mut().prepare(shape, channels, &fingerprint);
+            pipeline.begin(shape, &slicing);
         }
         let report = RenderReport {
             pixels: shape.pixels(),

@@ -1,15 +1,27 @@
 //! What is made of the spectra that a sensor sees.
 
+mod bayer;
+mod functional;
+mod output;
 mod power;
 mod radiance;
 mod rgb;
+mod spectral;
+mod spectral_files;
 
-pub use power::{PowerPipeline, PowerPipeline2D};
-pub use radiance::{RadiancePipeline, RadiancePipeline2D};
+pub use bayer::BayerPipeline2D;
+pub use functional::FunctionalPipeline;
+pub use power::{PowerPipeline, PowerPipeline0D, PowerPipeline1D, PowerPipeline2D};
+pub use radiance::{RadiancePipeline, RadiancePipeline0D, RadiancePipeline1D, RadiancePipeline2D};
 use raysect_optical::{Slice, Slicing};
 pub use rgb::RgbPipeline2D;
+pub use spectral::{
+    SpectralPipeline, SpectralPowerPipeline, SpectralPowerPipeline0D, SpectralPowerPipeline1D,
+    SpectralPowerPipeline2D, SpectralRadiancePipeline, SpectralRadiancePipeline0D,
+    SpectralRadiancePipeline1D, SpectralRadiancePipeline2D,
+};
 
-use crate::{Frame, ObserverError};
+use crate::{Frame, FrameShape, ObserverError};
 
 /// One spectrum, or the slice of it that one ray carries, as a pipeline gets it.
 #[derive(Debug, Clone, Copy)]
@@ -32,6 +44,10 @@ pub struct Measurement<'a> {
 pub trait Pipeline: Send + Sync {
     /// The names of the numbers that it makes of a sample.
     fn channels(&self, slicing: &Slicing) -> Vec<String>;
+
+    /// Called when an observation begins, for what depends on the pixels and bins: which filter a pixel has, for
+    /// example.
+    fn begin(&mut self, _shape: FrameShape, _slicing: &Slicing) {}
 
     /// Adds its numbers for one slice of a sample's spectrum to `out`.
     fn measure(&self, sample: &Measurement<'_>, out: &mut [f64]);
@@ -92,3 +108,6 @@ tuples!(A B);
 tuples!(A B C);
 tuples!(A B C D);
 tuples!(A B C D E);
+
+#[cfg(test)]
+mod tests;

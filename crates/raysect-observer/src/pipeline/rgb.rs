@@ -5,7 +5,9 @@ use raysect_math::MathError;
 use raysect_optical::Slicing;
 use raysect_optical::colour::{CieObserver, ciexyz_to_srgb, xyz_to_linear_srgb};
 
+use super::output::save_preview;
 use super::{Measurement, Pipeline};
+use crate::display::{check_fraction, unsaturated_value};
 use crate::file::{ExrLayer, save_png_rgb8};
 use crate::{Frame, ObserverError};
 
@@ -58,17 +60,15 @@ impl RgbPipeline2D {
     /// [`ObserverError::Math`] for a share outside 0 … 1, or 0.
     #[doc(alias = "display_unsaturated_fraction")]
     pub fn unsaturated_fraction(mut self, fraction: f64) -> Result<Self, ObserverError> {
-        let admitted = fraction > 0.0 && fraction <= 1.0;
-        MathError::check(admitted, fraction, "unsaturated fraction", "", "0 … 1, without 0")?;
-        self.exposure = Exposure::Automatic(fraction);
+        self.exposure = Exposure::Automatic(check_fraction(fraction)?);
         Ok(self)
     }
 
-    /// With a fixed exposure: tristimulus values are multiplied by this before they become sRGB.
+    /// With a fixed exposure instead of the automatic one: tristimulus values are multiplied by this before they become sRGB.
     ///
     /// # Errors
     /// [`ObserverError::Math`] unless it is positive and finite.
-    #[doc(alias = "display_sensitivity")]
+    #[doc(alias("display_sensitivity", "display_auto_exposure"))]
     pub fn sensitivity(mut self, sensitivity: f64) -> Result<Self, ObserverError> {
         let admitted = sensitivity > 0.0 && sensitivity.is_finite();
         MathError::check(admitted, sensitivity, "sensitivity", "", "positive and finite")?;
@@ -97,11 +97,9 @@ impl RgbPipeline2D {
             Exposure::Fixed(sensitivity) => return sensitivity,
             Exposure::Automatic(fraction) => fraction,
         };
-        let mut luminances: Vec<f64> = xyz.iter().map(|v| v[1]).filter(|y| y.is_finite()).collect();
-        luminances.sort_by(f64::total_cmp);
-        let place = ((luminances.len() as f64 * fraction) as usize).min(luminances.len().saturating_sub(1));
-        match luminances.get(place) {
-            Some(&white) if white > 0.0 => 1.0 / white,
+        let luminances: Vec<f64> = xyz.iter().map(|v| v[1]).collect();
+        match unsaturated_value(&luminances, fraction) {
+            Some(white) if white > 0.0 => 1.0 / white,
             _ => 1.0,
         }
     }
@@ -116,7 +114,7 @@ impl RgbPipeline2D {
 
     /// Writes the picture: sRGB for a name that ends in `.png`; OpenEXR with linear sRGB in front and the layers
     /// `mean`, `error` and `samples` of the tristimulus values for `.exr`; a NumPy archive with `xyz_mean`,
-    /// `xyz_error` and `samples` for `.npz`.
+    /// `xyz_error` and `samples` for `.npz`; a table for `.csv`.
     ///
     /// # Errors
     /// [`ObserverError::EmptyFrame`], [`ObserverError::File`].
@@ -127,6 +125,7 @@ impl RgbPipeline2D {
         }
         match extension.to_str() {
             Some("npz") => self.frame.save_npz(path),
+            Some("csv") => self.frame.save_csv(path),
             Some("exr") => {
                 let linear: Vec<[f64; 3]> = self.xyz().into_iter().map(xyz_to_linear_srgb).collect();
                 let plane = |c: usize| linear.iter().map(|v| v[c]).collect::<Vec<_>>();
@@ -184,11 +183,7 @@ impl Storable for RgbPipeline2D {
             Exposure::Automatic(fraction) => saved.number("unsaturated_fraction", fraction),
             Exposure::Fixed(sensitivity) => saved.number("sensitivity", sensitivity),
         };
-        let Some(path) = &self.preview else { return Ok(saved) };
-        match path.to_str() {
-            Some(path) => Ok(saved.text("preview", path)),
-            None => Err(SaveError::NoPlace(format!("the path {}, which is not Unicode,", path.display()))),
-        }
+        save_preview(self.preview.as_deref(), saved)
     }
 
     fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
