@@ -114,7 +114,7 @@ fn kind(file: &Path) -> io::Result<Kind> {
     let text = BufReader::new(File::open(file)?);
     let first = serde_json::Deserializer::from_reader(text).into_iter().next();
     Ok(match first {
-        Some(Ok(content)) if values::is_one(&content) => Kind::Values(content),
+        Some(Ok(content)) if content.get(values::TOLERANCE).is_some() => Kind::Values(content),
         _ => Kind::Crossings,
     })
 }
