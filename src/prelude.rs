@@ -8,7 +8,7 @@ pub use crate::math::{
 };
 pub use crate::observer::{
     CancelToken, Estimate, Frame, Observer, PinholeCamera, Pipeline, Pipelines, PowerPipeline2D,
-    RadiancePipeline2D, RenderReport, RgbPipeline2D, Scope, Sensor, Stop, minutes, seconds,
+    RadiancePipeline2D, RenderReport, RgbPipeline2D, Scope, Sensor, Statepoint, Stop, minutes, seconds,
 };
 pub use crate::optical::library::schott;
 pub use crate::optical::{
