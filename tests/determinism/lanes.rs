@@ -1,12 +1,14 @@
 //! Lanes computed apart, and put together in any order.
 
-use raysect::observer::{ObserverError, Statepoint};
+use raysect::observer::{BLOCK, ObserverError, Statepoint};
 use raysect::prelude::*;
 
-use crate::bits::{CASES, COUNT, Case, Pictures, SAMPLES, camera};
+use crate::bits::{CASES, COUNT, Case, Pictures, camera};
 
-const CASE: Case = CASES[1];
+const CASE: Case = CASES[2];
 const LANES: u64 = 4;
+/// Samples of a pixel in a lane: complete blocks of statistics and an open one.
+const SAMPLES: u64 = 2 * BLOCK + 7;
 
 fn lane(lane: u64, samples: u64) -> PinholeCamera {
     CASE.camera(samples).lane(lane, LANES).unwrap()

@@ -71,10 +71,9 @@ impl<'a, S: Sensor> Session<'a, S> {
             }
             pipeline.frame().check(shape, &pipeline.channels(&slicing), &fingerprint)?;
         }
-        let statepoint = match observer.statepoint_path() {
-            Some(path) => Some((path.to_owned(), scene_fingerprint(world, observer.path_settings()))),
-            None => None,
-        };
+        let settings = observer.path_settings();
+        let statepoint =
+            observer.statepoint_path().map(|path| (path.to_owned(), scene_fingerprint(world, settings)));
         let lane = observer.lane_number();
         check_equal(&list, shape.pixels(), lane)?;
         for pipeline in &mut list {
