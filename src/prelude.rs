@@ -14,7 +14,7 @@ pub use crate::observer::{
 };
 pub use crate::observer::{
     CancelToken, Estimate, Frame, Observer, PinholeCamera, Pipeline, Pipelines, PowerPipeline2D,
-    RadiancePipeline2D, RenderReport, RgbPipeline2D, Scope, Sensor, Stop, minutes, seconds,
+    RadiancePipeline2D, RenderReport, RgbPipeline2D, Scope, Sensor, Statepoint, Stop, minutes, seconds,
 };
 pub use crate::observer::{
     CcdArray, FibreOptic, MeshCamera, MeshPixel, OpenCvCamera, OrthographicCamera, Pixel, SightLine,

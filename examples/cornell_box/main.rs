@@ -42,6 +42,10 @@ struct Arguments {
     /// Goes on until the mean colour has this relative standard error, instead of a number of samples.
     #[arg(long)]
     stop_error: Option<f64>,
+    /// Goes on from `cornell_box.statepoint` in the folder of the results, if there is one, and writes it after each
+    /// pass, so that a run that is killed can be resumed by the same command.
+    #[arg(long)]
+    resume: bool,
     /// Folder of the results.
     #[arg(long, default_value = ".")]
     out: PathBuf,
@@ -92,10 +96,14 @@ fn main() -> raysect::Result<()> {
         println!("{}\n", camera.plan(&world)?);
     }
     let mut pipelines = (&mut rgb, &mut radiance);
-    let report = match arguments.stop_error {
-        Some(error) => camera.observe_until(&world, &mut pipelines, Stop::relative_error(error))?,
-        None => camera.observe(&world, &mut pipelines)?,
-    };
+    if arguments.resume {
+        camera = camera.statepoint(file("statepoint"));
+        if camera.resume(&world, &mut pipelines)? && !arguments.quiet {
+            println!("going on from {}", file("statepoint").display());
+        }
+    }
+    let stop = arguments.stop_error.map_or(Stop::samples(arguments.samples), Stop::relative_error);
+    let report = camera.observe_until(&world, &mut pipelines, stop)?;
     for extension in ["png", "exr", "npz"] {
         rgb.save(file(extension))?;
     }

@@ -1,9 +1,12 @@
+use std::ops::Range;
+
 use raysect_core::{CoreError, EngineError};
 use raysect_math::MathError;
 use raysect_optical::OpticalError;
 use thiserror::Error;
 
 use crate::file::FileError;
+use crate::{FrameShape, StatepointError};
 
 /// What can go wrong with an observation.
 #[derive(Debug, Error)]
@@ -64,6 +67,42 @@ pub enum ObserverError {
         sensor: &'static str,
         /// The first pixel without.
         pixel: usize,
+    },
+    /// A region of interest reaches beyond the picture.
+    #[error("columns {columns:?} and rows {rows:?} do not lie within {shape}")]
+    Region {
+        /// Columns asked for.
+        columns: Range<usize>,
+        /// Rows asked for.
+        rows: Range<usize>,
+        /// The pixels that there are.
+        shape: FrameShape,
+    },
+    /// A mask or a region of interest leaves nothing.
+    #[error("the mask leaves no pixel to observe")]
+    NoPixels,
+    /// Two frames have the same samples, which must not be counted twice.
+    #[error(
+        "frame '{name}': both have samples of pixel {pixel} in lane {lane}, and samples must not be counted twice"
+    )]
+    Overlap {
+        /// Name of the frame.
+        name: String,
+        /// The lane.
+        lane: u64,
+        /// The first pixel that both have.
+        pixel: usize,
+    },
+    /// A statepoint cannot be used.
+    #[error(transparent)]
+    Statepoint(#[from] StatepointError),
+    /// A lane that there is none of.
+    #[error("lane {lane} of {of}: lanes are counted from 0 and must be less than their number")]
+    Lane {
+        /// Its number.
+        lane: u64,
+        /// How many there are.
+        of: u64,
     },
     /// A frame has nothing to show yet.
     #[error("frame '{0}' has no samples yet")]

@@ -1,4 +1,6 @@
 use std::fmt;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -9,7 +11,7 @@ use raysect_optical::{PathSettings, Slicing, World};
 
 use crate::observe::Session;
 use crate::progress::{Progress, Watcher};
-use crate::{ObserverError, Pipelines, Plan, RenderReport, Sensor, Stop};
+use crate::{ObserverError, Pipelines, Plan, RenderReport, Sensor, Statepoint, Stop};
 
 /// A handle that ends an observation from elsewhere; what is finished is kept.
 #[derive(Debug, Clone, Default)]
@@ -59,6 +61,11 @@ pub struct Observer<S: Sensor> {
     pixel_samples: u64,
     seed: u64,
     paths: PathSettings,
+    /// Which pixels are observed; all of them if it is empty.
+    mask: Vec<bool>,
+    /// Number of the lane, and of how many.
+    lane: (u64, u64),
+    statepoint: Option<PathBuf>,
     engine: Option<Arc<dyn Engine>>,
     quiet: bool,
     watcher: Option<Arc<Watcher>>,
@@ -85,6 +92,9 @@ impl<S: Sensor> Observer<S> {
             pixel_samples: 100,
             seed: 1,
             paths: PathSettings::default(),
+            mask: Vec::new(),
+            lane: (0, 1),
+            statepoint: None,
             engine: None,
             quiet: false,
             watcher: None,
@@ -138,6 +148,70 @@ impl<S: Sensor> Observer<S> {
     /// With other settings of its paths.
     pub fn paths(mut self, paths: PathSettings) -> Self {
         self.paths = paths;
+        self
+    }
+
+    /// Of these pixels only, row by row: those with `true`. The others keep the samples that they have, which are
+    /// none in a new pipeline: a mean of 0 with an infinite error, which totals and averages leave out.
+    ///
+    /// # Errors
+    /// [`ObserverError::PixelCount`] for another number of values than pixels, [`ObserverError::NoPixels`] without any
+    /// `true`.
+    pub fn mask(mut self, mask: impl Into<Vec<bool>>) -> Result<Self, ObserverError> {
+        self.mask = mask.into();
+        let (found, expected) = (self.mask.len(), self.sensor.shape().pixels());
+        if found != expected {
+            return Err(ObserverError::PixelCount { what: "mask", found, expected });
+        }
+        self.checked_mask()?;
+        Ok(self)
+    }
+
+    /// Of the pixels in some columns (from the left) and rows (from the top) only, instead of an earlier
+    /// [`mask`](Self::mask).
+    ///
+    /// ```
+    /// # use raysect_observer::PinholeCamera;
+    /// let corner = PinholeCamera::new((16, 9), 45.0)?.region(12..16, 0..3)?;
+    /// assert!(PinholeCamera::new((16, 9), 45.0)?.region(12..17, 0..3).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ObserverError::Region`] for a region that reaches beyond the picture, [`ObserverError::NoPixels`] for an empty
+    /// one.
+    pub fn region(self, columns: Range<usize>, rows: Range<usize>) -> Result<Self, ObserverError> {
+        let shape = self.sensor.shape();
+        if columns.end > shape.columns() || rows.end > shape.rows() {
+            return Err(ObserverError::Region { columns, rows, shape });
+        }
+        let place = |pixel: usize| (pixel % shape.columns(), pixel / shape.columns());
+        let inside = |(column, row): (usize, usize)| columns.contains(&column) && rows.contains(&row);
+        let mask: Vec<bool> = (0..shape.pixels()).map(|pixel| inside(place(pixel))).collect();
+        self.mask(mask)
+    }
+
+    /// In lane `lane` of `of` sets of samples that are independent of each other, counted from 0: a part of an
+    /// observation that is divided among machines. [Statepoints](crate::Statepoint) of the lanes, merged in any order,
+    /// have the bits of the undivided observation, which takes all the lanes one after the other with the same
+    /// pipelines. By default lane 0 of 1.
+    ///
+    /// A number of samples is that of the lane, and so is what a stop rule looks at.
+    ///
+    /// # Errors
+    /// [`ObserverError::Lane`] unless `lane` is less than `of`.
+    pub fn lane(mut self, lane: u64, of: u64) -> Result<Self, ObserverError> {
+        if lane >= of {
+            return Err(ObserverError::Lane { lane, of });
+        }
+        self.lane = (lane, of);
+        Ok(self)
+    }
+
+    /// Writes a [`Statepoint`] of all pipelines after each pass, so that a program that ends at any time loses only the
+    /// pass in progress; see [`resume`](Self::resume). The file is at any time the last one or the new one.
+    pub fn statepoint(mut self, path: impl Into<PathBuf>) -> Self {
+        self.statepoint = Some(path.into());
         self
     }
 
@@ -263,11 +337,74 @@ impl<S: Sensor> Observer<S> {
             pixel_samples: self.pixel_samples,
             seed: self.seed,
             paths: self.paths,
+            mask: self.mask,
+            lane: self.lane,
+            statepoint: self.statepoint,
             engine: self.engine,
             quiet: self.quiet,
             watcher: self.watcher,
             cancel: self.cancel,
         })
+    }
+
+    /// Goes back to the [statepoint](Self::statepoint) that was written last: the pipelines have the samples that they
+    /// had then, and the next observation goes on with the bits of an undisturbed one. Answers with `false`, and
+    /// leaves the pipelines alone, if there is no file yet.
+    ///
+    /// # Errors
+    /// As [`Statepoint::load`] and [`Statepoint::restore`]; the pipelines are then as before.
+    pub fn resume(
+        &self,
+        world: &World,
+        pipelines: &mut (impl Pipelines + ?Sized),
+    ) -> Result<bool, ObserverError> {
+        match &self.statepoint {
+            Some(path) if path.exists() => {
+                Statepoint::load(path)?.restore(self, world, pipelines)?;
+                Ok(true)
+            }
+            _ => Ok(false),
+        }
+    }
+
+    /// What is observed: what frames are known by.
+    pub(crate) fn fingerprint(&self, world: &World) -> Result<String, ObserverError> {
+        let slicing = self.slicing()?;
+        let lanes = match self.lane.1 {
+            1 => String::new(),
+            of => format!(", samples in {of} lanes"),
+        };
+        Ok(format!(
+            "{} at {:?}, {} bins over {} … {} nm in {} slices, seed {}{lanes}",
+            self.sensor.description(),
+            self.to_root(world)?.to_rows(),
+            slicing.bins(),
+            slicing.min_wavelength(),
+            slicing.max_wavelength(),
+            slicing.slice_count(),
+            self.seed,
+        ))
+    }
+
+    pub(crate) fn statepoint_path(&self) -> Option<&Path> {
+        self.statepoint.as_deref()
+    }
+
+    /// Which pixels are observed, if that is possible.
+    pub(crate) fn checked_mask(&self) -> Result<Vec<bool>, ObserverError> {
+        let expected = self.sensor.shape().pixels();
+        let mask = if self.mask.is_empty() { vec![true; expected] } else { self.mask.clone() };
+        if mask.len() != expected {
+            return Err(ObserverError::PixelCount { what: "mask", found: mask.len(), expected });
+        }
+        if !mask.contains(&true) {
+            return Err(ObserverError::NoPixels);
+        }
+        Ok(mask)
+    }
+
+    pub(crate) fn lane_number(&self) -> u64 {
+        self.lane.0
     }
 
     pub(crate) fn path_settings(&self) -> &PathSettings {
@@ -319,7 +456,15 @@ impl<S: Sensor + Storable> Storable for Observer<S> {
             .count("pixel_samples", self.pixel_samples)
             .count("seed", self.seed)
             .flag("quiet", self.quiet);
-        self.paths.save(saved, writer)
+        let mut saved = self.paths.save(saved, writer)?;
+        if !self.mask.is_empty() {
+            saved = saved
+                .text("mask", self.mask.iter().map(|&seen| if seen { '1' } else { '0' }).collect::<String>());
+        }
+        if self.lane.1 != 1 {
+            saved = saved.count("lane", self.lane.0).count("lanes", self.lane.1);
+        }
+        Ok(saved)
     }
 
     fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
@@ -334,6 +479,12 @@ impl<S: Sensor + Storable> Storable for Observer<S> {
             .quiet(entry.flag("quiet")?)
             .paths(PathSettings::load(entry)?);
         observer.slicing()?;
+        if entry.has("mask") {
+            observer = observer.mask(entry.text("mask")?.bytes().map(|b| b == b'1').collect::<Vec<_>>())?;
+        }
+        if entry.has("lanes") {
+            observer = observer.lane(entry.count("lane")?, entry.count("lanes")?)?;
+        }
         if entry.has("parent") {
             observer = observer.parent(entry.node("parent")?);
         }

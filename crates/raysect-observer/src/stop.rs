@@ -169,22 +169,23 @@ impl Element {
 pub(crate) fn elements(stop: &Stop, frames: &[Frame]) -> Vec<Element> {
     let mut all = Vec::new();
     for frame in frames {
-        let pixels = frame.shape().pixels();
-        let largest = (0..pixels).map(|p| frame.largest(p)).fold(0.0, f64::max);
+        let pixels: Vec<usize> = frame.observed_pixels().collect();
+        let count = pixels.len() as u64;
+        let largest = pixels.iter().map(|&p| frame.largest(p)).fold(0.0, f64::max);
         for channel in 0..frame.channels().len() {
             let total = frame.total_of(channel);
             match stop.scope {
                 Scope::Total => all.push(Element {
                     estimate: total,
-                    samples: frame.total_samples() / pixels as u64,
-                    contributing: (0..pixels).map(|p| frame.contributing(p)).sum(),
+                    samples: pixels.iter().map(|&p| frame.samples(p)).sum::<u64>() / count.max(1),
+                    contributing: pixels.iter().map(|&p| frame.contributing(p)).sum(),
                     target: stop.target(total.value),
                     negligible: 0.0,
                     largest,
                 }),
                 Scope::Pixels(_) => {
-                    let negligible = stop.target(total.value / pixels as f64);
-                    all.extend((0..pixels).map(|p| {
+                    let negligible = stop.target(total.value / count as f64);
+                    all.extend(pixels.iter().map(|&p| {
                         let estimate = frame.pixel(p, channel);
                         Element {
                             estimate,

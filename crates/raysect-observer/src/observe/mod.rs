@@ -3,6 +3,7 @@
 mod pass;
 mod until;
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use raysect_core::Engine;
@@ -10,11 +11,10 @@ use raysect_math::AffineMatrix3D;
 use raysect_optical::{Ledger, Scene, Slice, World};
 
 use crate::progress::Meter;
+use crate::statepoint::{scene_fingerprint, write_statepoint};
 use crate::{Frame, Observer, ObserverError, Pipeline, Pipelines, RenderReport, Sensor};
 
-/// Samples that are observed and averaged.
-const MAIN_LANE: u64 = 0;
-/// Samples that only decide when to stop.
+/// Samples that only decide when to stop, the same for all lanes of samples that count.
 const PILOT_LANE: u64 = u64::MAX;
 
 /// How long a pass may take, so that previews come and clocks are looked at [s].
@@ -27,6 +27,10 @@ pub(crate) struct Session<'a, S: Sensor> {
     slices: Vec<Slice>,
     to_world: AffineMatrix3D,
     pipelines: Vec<&'a mut dyn Pipeline>,
+    /// Where the state is written after each pass, and of what scene.
+    statepoint: Option<(PathBuf, String)>,
+    /// Which pixels are observed.
+    mask: Vec<bool>,
     /// The frames of the pipelines, kept here while they are written to.
     frames: Vec<Frame>,
     engine: Arc<dyn Engine>,
@@ -56,16 +60,8 @@ impl<'a, S: Sensor> Session<'a, S> {
         let to_world = observer.to_root(world)?;
         to_world.inverse()?;
         let (sensor, shape) = (observer.sensor(), observer.sensor().shape());
-        let fingerprint = format!(
-            "{} at {:?}, {} bins over {} … {} nm in {} slices, seed {}",
-            sensor.description(),
-            to_world.to_rows(),
-            slicing.bins(),
-            slicing.min_wavelength(),
-            slicing.max_wavelength(),
-            slicing.slice_count(),
-            observer.seed_value()
-        );
+        let mask = observer.checked_mask()?;
+        let fingerprint = observer.fingerprint(world)?;
         for pipeline in &mut list {
             if pipeline.needs_etendue()
                 && let Some(pixel) = (0..shape.pixels()).find(|&p| sensor.etendue(p).is_none())
@@ -75,14 +71,18 @@ impl<'a, S: Sensor> Session<'a, S> {
             }
             pipeline.frame().check(shape, &pipeline.channels(&slicing), &fingerprint)?;
         }
-        check_equal(&list, shape.pixels())?;
+        let settings = observer.path_settings();
+        let statepoint =
+            observer.statepoint_path().map(|path| (path.to_owned(), scene_fingerprint(world, settings)));
+        let lane = observer.lane_number();
+        check_equal(&list, shape.pixels(), lane)?;
         for pipeline in &mut list {
             let channels = pipeline.channels(&slicing);
-            pipeline.frame_mut().prepare(shape, channels, &fingerprint);
+            pipeline.frame_mut().prepare(shape, channels, &fingerprint, lane, &mask);
             pipeline.begin(shape, &slicing);
         }
         let report = RenderReport {
-            pixels: shape.pixels(),
+            pixels: mask.iter().filter(|seen| **seen).count(),
             passes: 0,
             samples: 0,
             elapsed: Default::default(),
@@ -98,6 +98,8 @@ impl<'a, S: Sensor> Session<'a, S> {
             to_world,
             frames: Vec::new(),
             pipelines: list,
+            mask,
+            statepoint,
             engine: observer.chosen_engine()?,
             report,
             meter: Meter::new(0, observer.is_quiet(), observer.watcher()),
@@ -108,10 +110,25 @@ impl<'a, S: Sensor> Session<'a, S> {
         self.report.pixels as u64
     }
 
-    /// Samples that every pixel has.
+    /// The pixels that are observed.
+    fn observed(&self) -> impl Iterator<Item = usize> {
+        self.mask.iter().enumerate().filter(|(_, seen)| **seen).map(|(pixel, _)| pixel)
+    }
+
+    /// Samples that every observed pixel has in this lane.
     fn samples_before(&self) -> u64 {
-        let frame = self.pipelines[0].frame();
-        (0..self.report.pixels).map(|p| frame.samples(p)).min().unwrap_or(0)
+        let (frame, lane) = (self.pipelines[0].frame(), self.observer.lane_number());
+        self.observed().map(|p| frame.lane_samples(lane, p)).min().unwrap_or(0)
+    }
+
+    /// How many samples each pixel is to have after `count` more, but no more than `limit`.
+    fn goals(&self, frame: &Frame, count: u64, limit: u64) -> Vec<u64> {
+        let lane = self.observer.lane_number();
+        let mut goals = vec![0; self.mask.len()];
+        for pixel in self.observed() {
+            goals[pixel] = frame.lane_samples(lane, pixel).saturating_add(count).min(limit);
+        }
+        goals
     }
 
     pub(crate) fn observe(mut self, samples: u64) -> Result<RenderReport, ObserverError> {
@@ -152,9 +169,14 @@ impl<'a, S: Sensor> Session<'a, S> {
         self.frames =
             self.pipelines.iter_mut().map(|p| std::mem::replace(p.frame_mut(), Frame::new("", ""))).collect();
         let mut frames = std::mem::take(&mut self.frames);
-        let outcome = self.pass(&mut frames, MAIN_LANE, count, limit);
+        let goals = self.goals(&frames[0], count, limit);
+        let outcome = self.pass(&mut frames, self.observer.lane_number(), &goals);
         for (pipeline, frame) in self.pipelines.iter_mut().zip(frames) {
             *pipeline.frame_mut() = frame;
+        }
+        if let Some((path, scene)) = &self.statepoint {
+            let frames: Vec<&Frame> = self.pipelines.iter().map(|p| p.frame()).collect();
+            write_statepoint(path, scene, &frames)?;
         }
         self.report.passes += 1;
         self.report.samples += outcome?;
@@ -165,16 +187,16 @@ impl<'a, S: Sensor> Session<'a, S> {
     }
 }
 
-fn check_equal(list: &[&mut dyn Pipeline], pixels: usize) -> Result<(), ObserverError> {
+fn check_equal(list: &[&mut dyn Pipeline], pixels: usize, lane: u64) -> Result<(), ObserverError> {
     let first = list[0].frame();
     for other in list[1..].iter().map(|p| p.frame()) {
-        let unequal = (0..pixels).find(|&p| first.samples(p) != other.samples(p));
+        let unequal = (0..pixels).find(|&p| first.lane_samples(lane, p) != other.lane_samples(lane, p));
         if let Some(pixel) = unequal {
             return Err(ObserverError::UnequalPipelines {
                 first: first.name().to_owned(),
-                first_samples: first.samples(pixel),
+                first_samples: first.lane_samples(lane, pixel),
                 second: other.name().to_owned(),
-                second_samples: other.samples(pixel),
+                second_samples: other.lane_samples(lane, pixel),
             });
         }
     }

@@ -7,7 +7,7 @@ use raysect_math::{Rng, Stratum, StreamKey};
 use raysect_optical::{LEDGER_NUMBERS, Ledger, Path};
 
 use super::Session;
-use crate::frame::{BLOCK, add_sample};
+use crate::frame::{BLOCK, Sums, add_sample};
 use crate::sensor::radiance_weight;
 use crate::strata::Strata;
 use crate::{Frame, Measurement, ObserverError, Pipeline, Sensor};
@@ -37,14 +37,13 @@ struct Items {
 }
 
 impl Items {
-    fn new(frame: &Frame, count: u64, limit: u64, workers: usize, slices: usize) -> Self {
-        let pixels = frame.shape().pixels();
-        let all = pixels as u64 * count;
+    /// Of the samples that pixels are short of their `goals`.
+    fn new(sums: &Sums, goals: &[u64], workers: usize, slices: usize) -> Self {
+        let all: u64 = goals.iter().enumerate().map(|(p, goal)| goal.saturating_sub(sums.samples(p))).sum();
         let size = (all / (16 * workers as u64)).clamp(1, (ITEM_SAMPLES / slices as u64).max(1));
-        let mut tasks = Vec::with_capacity(pixels);
-        for pixel in 0..pixels {
-            let mut first = frame.samples(pixel);
-            let end = first.saturating_add(count).min(limit);
+        let mut tasks = Vec::with_capacity(goals.len());
+        for (pixel, &end) in goals.iter().enumerate() {
+            let mut first = sums.samples(pixel);
             while first < end {
                 // Only whole blocks can be computed apart from each other.
                 let stop = ((first + size) / BLOCK * BLOCK).max((first / BLOCK + 1) * BLOCK).min(end);
@@ -71,38 +70,45 @@ impl Items {
 struct Shared<'s, 'a, S: Sensor> {
     session: &'s Session<'a, S>,
     pipelines: &'s [&'s dyn Pipeline],
-    /// The blocks that were open when the pass began.
-    frames: &'s [Frame],
+    /// The blocks that were open when the pass began, and the number of channels, for each pipeline.
+    open: &'s [Sums],
     lane: u64,
 }
 
 impl<'a, S: Sensor> Session<'a, S> {
-    /// Takes `count` more samples of every pixel into `frames`, but none beyond `limit`; answers with the number of
-    /// samples taken.
+    /// Takes samples of every pixel that has fewer than its goal into `frames`, from the streams of `stream`; answers
+    /// with the number of samples taken.
     pub(super) fn pass(
         &mut self,
         frames: &mut [Frame],
-        lane: u64,
-        count: u64,
-        limit: u64,
+        stream: u64,
+        goals: &[u64],
     ) -> Result<u64, ObserverError> {
-        let items = Items::new(&frames[0], count, limit, self.engine.workers(), self.slices.len());
-        let strides: Vec<usize> = frames.iter().map(Frame::open_stride).collect();
+        let lane = self.observer.lane_number();
+        let mut sums: Vec<Sums> = frames.iter_mut().map(|frame| frame.take_lane(lane)).collect();
+        let outcome = self.fold(&mut sums, stream, goals);
+        frames.iter_mut().zip(sums).for_each(|(frame, sums)| frame.put_lane(lane, sums));
+        outcome
+    }
+
+    fn fold(&mut self, sums: &mut [Sums], lane: u64, goals: &[u64]) -> Result<u64, ObserverError> {
+        let items = Items::new(&sums[0], goals, self.engine.workers(), self.slices.len());
+        let strides: Vec<usize> = sums.iter().map(Sums::open_stride).collect();
         let (mut ledger, mut invalid, mut samples, mut cancelled) = (Ledger::default(), 0, 0, false);
         let mut meter = std::mem::replace(&mut self.meter, crate::progress::Meter::new(0, true, None));
-        let before: Vec<Frame> = frames.iter().map(Frame::open_part).collect();
+        let before: Vec<Sums> = sums.iter().map(Sums::open_part).collect();
         let outcome = {
             let pipelines: Vec<&dyn Pipeline> = self.pipelines.iter().map(|p| &**p).collect();
-            let shared = Shared { session: self, pipelines: &pipelines, frames: &before, lane };
+            let shared = Shared { session: self, pipelines: &pipelines, open: &before, lane };
             let work = |item: usize| shared.item(&items.tasks[items.groups[item].clone()]);
             let cancel = self.observer.cancel_token();
             self.engine.run(items.groups.len(), &work, &mut |item, numbers| {
                 let mut rest = &numbers[..];
                 for task in &items.tasks[items.groups[item].clone()] {
                     for _ in 0..task.blocks() {
-                        for (frame, stride) in frames.iter_mut().zip(&strides) {
+                        for (sums, stride) in sums.iter_mut().zip(&strides) {
                             let (block, after) = rest.split_at(*stride);
-                            frame.put_block(task.pixel, block);
+                            sums.put_block(task.pixel, block);
                             rest = after;
                         }
                     }
@@ -140,12 +146,12 @@ impl<S: Sensor> Shared<'_, '_, S> {
             session.slices.iter().map(|slice| Path::new(session.scene, slice, settings)).collect();
         let widest = session.slices.iter().map(|s| s.bins).max().unwrap_or(0);
         let mut weighted = vec![0.0; widest];
-        let mut samples: Vec<Vec<f64>> = self.frames.iter().map(|f| vec![0.0; f.channels().len()]).collect();
-        let mut blocks: Vec<Vec<f64>> = self.frames.iter().map(|f| vec![0.0; f.open_stride()]).collect();
+        let mut samples: Vec<Vec<f64>> = self.open.iter().map(|s| vec![0.0; s.channels()]).collect();
+        let mut blocks: Vec<Vec<f64>> = self.open.iter().map(|s| vec![0.0; s.open_stride()]).collect();
         let (mut out, mut invalid, mut strata) = (Vec::new(), 0.0, Strata::default());
         for task in tasks {
-            for (block, frame) in blocks.iter_mut().zip(self.frames) {
-                block.copy_from_slice(frame.open_block(task.pixel));
+            for (block, open) in blocks.iter_mut().zip(self.open) {
+                block.copy_from_slice(open.open_block(task.pixel));
                 if task.first % BLOCK == 0 {
                     block.fill(0.0);
                 }

@@ -31,7 +31,9 @@ impl<S: Sensor> Session<'_, S> {
             self.meter.foresee(wanted.saturating_add(pilot_samples).saturating_mul(pixels));
             let due = wanted.saturating_sub(before);
             let taken = self.take(due, wanted, deadline)?;
-            let frames: Vec<Frame> = self.pipelines.iter().map(|p| p.frame().clone()).collect();
+            let lane = self.observer.lane_number();
+            let frames: Vec<Frame> =
+                self.pipelines.iter().map(|p| p.frame().part(lane, &self.mask)).collect();
             let looked_at = elements(stop, &frames);
             let (reached, unconverged) = verdict(stop, &looked_at);
             self.report.convergence =
@@ -53,15 +55,18 @@ impl<S: Sensor> Session<'_, S> {
         limit: u64,
         deadline: Option<f64>,
     ) -> Result<(Option<u64>, u64), ObserverError> {
-        let mut frames: Vec<Frame> = self.pipelines.iter().map(|p| p.frame().emptied()).collect();
+        let lane = self.observer.lane_number();
+        let mut frames: Vec<Frame> =
+            self.pipelines.iter().map(|p| p.frame().emptied(lane, &self.mask)).collect();
         let most = ((limit as f64 * PILOT_SHARE) as u64).max(1);
         let (mut done, mut next) = (0, PILOT.min(most));
         loop {
             self.meter.say("pilot".to_owned());
             let pixels = self.pixels();
             self.meter.foresee((done + next) * pixels);
-            self.pass(&mut frames, PILOT_LANE, next, u64::MAX)?;
             done += next;
+            let goals = self.goals(&frames[0], next, u64::MAX);
+            self.pass(&mut frames, PILOT_LANE, &goals)?;
             let needed = needed_samples(stop, &elements(stop, &frames));
             let late = deadline.is_some_and(|d| self.meter.elapsed().as_secs_f64() >= PILOT_SHARE * d);
             if needed.is_some() || late || done >= most || self.report.cancelled {
