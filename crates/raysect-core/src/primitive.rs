@@ -166,6 +166,15 @@ pub trait Primitive: Send + Sync + 'static {
     /// Appends every crossing of the infinite line through the ray, in order of distance.
     fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>);
 
+    /// As [`crossings`](Self::crossings), for a caller to whom only an interval of distances matters.
+    ///
+    /// What is appended agrees with the shape within the interval: with all its crossings there, and with whether the
+    /// ends are inside. Crossings beyond may be missing or others, as long as all are in order and alternate. A composite
+    /// so passes over operands that lie elsewhere.
+    fn crossings_within(&self, ray: &Ray, _within: Interval, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
+        self.crossings(ray, scratch, out);
+    }
+
     /// The first crossing within an interval of distances.
     fn hit(&self, ray: &Ray, within: Interval, scratch: &mut Scratch) -> Option<Crossing> {
         let mut all = scratch.take();

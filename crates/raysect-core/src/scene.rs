@@ -25,6 +25,8 @@ pub struct Instance<A> {
     pub similarity: Option<f64>,
     convex: bool,
     solid: bool,
+    /// True if the space of the shape is that of the world.
+    in_place: bool,
     /// One over the factor of a similarity.
     shrink: f64,
     /// Largest stretch of a length by `to_world`, and the size of its translation [m]: what rounding acts upon.
@@ -51,6 +53,7 @@ impl<A> Instance<A> {
         Self {
             convex: primitive.is_convex(),
             solid: primitive.is_solid(),
+            in_place: to_world == AffineMatrix3D::IDENTITY && to_local == AffineMatrix3D::IDENTITY,
             stretch: row(0).max(row(1)).max(row(2)),
             shift: to_world.origin().max_abs(),
             similarity: to_world.similarity_scale(),
@@ -66,6 +69,9 @@ impl<A> Instance<A> {
 
     #[inline]
     fn local(&self, ray: &Ray) -> Ray {
+        if self.in_place {
+            return *ray;
+        }
         Ray {
             origin: self.to_local.transform_point(ray.origin),
             direction: self.to_local.transform_vector(ray.direction),
@@ -262,7 +268,12 @@ pub struct Scene<A: Attachment> {
     /// What the attachments have made of them.
     pub compiled: A::Compiled,
     accelerator: Box<dyn Accelerator>,
+    /// True if there are so few instances that each is asked without a structure.
+    few: bool,
 }
+
+/// So few instances are asked one after the other: their boxes cost as much as they do.
+const FEW: usize = 2;
 
 impl<A: Attachment> std::fmt::Debug for Scene<A> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -277,7 +288,8 @@ impl<A: Attachment> Scene<A> {
         acceleration: &crate::Acceleration,
     ) -> Self {
         let boxes: Vec<_> = instances.iter().map(|i| i.bounds).collect();
-        Self { instances, compiled, accelerator: acceleration.build(&boxes) }
+        let few = matches!(acceleration, crate::Acceleration::Automatic) && instances.len() <= FEW;
+        Self { instances, compiled, accelerator: acceleration.build(&boxes), few }
     }
 
     /// The structure that finds what a ray may hit.
@@ -288,6 +300,9 @@ impl<A: Attachment> Scene<A> {
     /// The nearest hit of a ray up to its `max_distance`. Among equals the lower instance number wins, so that the
     /// answer does not depend on the acceleration.
     pub fn hit(&self, ray: &Ray, leaving: Option<&Leaving>, scratch: &mut Scratch) -> Option<Candidate> {
+        if self.few {
+            return self.hit_few(ray, leaving, scratch);
+        }
         let mut best: Option<Candidate> = None;
         let prepared = TraversalRay::new(ray, leaving.map_or(0.0, |l| -l.zone));
         self.accelerator.visit(&prepared, ray.max_distance, &mut |index, limit| {
@@ -301,6 +316,20 @@ impl<A: Attachment> Scene<A> {
             }
             crossing.distance.min(limit)
         });
+        best
+    }
+
+    #[inline]
+    fn hit_few(&self, ray: &Ray, leaving: Option<&Leaving>, scratch: &mut Scratch) -> Option<Candidate> {
+        let (mut best, mut limit) = (None, ray.max_distance);
+        for index in 0..self.instances.len() as u32 {
+            let Some(crossing) = self.hit_instance(index, ray, leaving, limit, scratch) else { continue };
+            // Among equals the first one stays.
+            if best.is_none_or(|b: Candidate| crossing.distance < b.crossing.distance) {
+                best = Some(Candidate { instance: index, crossing });
+                limit = limit.min(crossing.distance);
+            }
+        }
         best
     }
 
@@ -359,6 +388,9 @@ impl<A: Attachment> Scene<A> {
     /// Everything about the surface at a hit.
     pub fn finish(&self, ray: &Ray, hit: &Candidate) -> SurfacePoint {
         let instance = &self.instances[hit.instance as usize];
+        if instance.in_place {
+            return Self::finish_in_place(instance, ray, hit);
+        }
         let local = instance.primitive.surface(&instance.local(ray), &hit.crossing);
         let point = instance.to_world.transform_point(local.point);
         let upright = |n: Normal3D| match instance.similarity {
@@ -378,6 +410,23 @@ impl<A: Attachment> Scene<A> {
             normal,
             shading_normal,
             bound: instance.stretch * local.bound + rounding * reach,
+            distance: hit.crossing.distance,
+            exiting: hit.crossing.exiting,
+            feature: hit.crossing.feature,
+        }
+    }
+
+    /// As [`finish`](Self::finish), where the space of the shape is that of the world.
+    #[inline]
+    fn finish_in_place(instance: &Instance<A>, ray: &Ray, hit: &Candidate) -> SurfacePoint {
+        let local = instance.primitive.surface(ray, &hit.crossing);
+        SurfacePoint {
+            instance: hit.instance,
+            point: local.point,
+            local_point: local.point,
+            normal: local.normal,
+            shading_normal: local.shading_normal,
+            bound: local.bound + 32.0 * f64::EPSILON * local.point.max_abs(),
             distance: hit.crossing.distance,
             exiting: hit.crossing.exiting,
             feature: hit.crossing.feature,

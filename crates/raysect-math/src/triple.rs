@@ -55,7 +55,10 @@ macro_rules! direction_arithmetic {
             #[inline]
             pub fn max_abs(self) -> f64 {
                 let [x, y, z] = [self.x.abs(), self.y.abs(), self.z.abs()];
-                if x.is_nan() || y.is_nan() || z.is_nan() { f64::NAN } else { x.max(y).max(z) }
+                let larger = if x > y { x } else { y };
+                let largest = if larger > z { larger } else { z };
+                // The sum of magnitudes is a NaN only if one of them is.
+                if (x + y + z).is_nan() { f64::NAN } else { largest }
             }
 
             /// True if no component is infinite or NaN.

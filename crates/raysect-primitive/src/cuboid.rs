@@ -118,31 +118,31 @@ impl Cuboid {
     /// The common interval of the three slabs, possibly empty (`near > far`); none if the ray runs beside a slab.
     #[inline]
     fn passage(&self, ray: &Ray) -> Option<Passage> {
-        let mut p = Passage { near: f64::NEG_INFINITY, far: f64::INFINITY, entry: 0, exit: 0 };
-        let (o, d) = (ray.origin, ray.direction);
-        let slabs = [
-            (o.x, d.x, self.lower.x, self.upper.x),
-            (o.y, d.y, self.lower.y, self.upper.y),
-            (o.z, d.z, self.lower.z, self.upper.z),
-        ];
-        for (axis, (o, d, low, high)) in slabs.into_iter().enumerate() {
-            if d == 0.0 {
-                if o < low || o > high || self.sheet == Some(axis) {
-                    return None;
-                }
-                continue;
-            }
-            let forward = d > 0.0;
-            let (first, last) =
-                if forward { ((low - o) / d, (high - o) / d) } else { ((high - o) / d, (low - o) / d) };
-            if first > p.near {
-                (p.near, p.entry) = (first, face_number(axis, !forward));
-            }
-            if last < p.far {
-                (p.far, p.exit) = (last, face_number(axis, forward));
-            }
+        let p = Passage { near: f64::NEG_INFINITY, far: f64::INFINITY, entry: 0, exit: 0 };
+        let (o, d, low, high) = (ray.origin, ray.direction, self.lower, self.upper);
+        let p = self.clip(p, 0, [o.x, d.x, low.x, high.x])?;
+        let p = self.clip(p, 1, [o.y, d.y, low.y, high.y])?;
+        self.clip(p, 2, [o.z, d.z, low.z, high.z])
+    }
+
+    /// What is left of a passage between the faces `low` and `high` across an axis.
+    #[inline(always)]
+    fn clip(&self, p: Passage, axis: usize, [o, d, low, high]: [f64; 4]) -> Option<Passage> {
+        if d == 0.0 {
+            let beside = o < low || o > high || self.sheet == Some(axis);
+            return (!beside).then_some(p);
         }
-        Some(p)
+        // Selections and no branches: which way lines run cannot be foretold.
+        let forward = d > 0.0;
+        let (nearer, farther) = if forward { (low, high) } else { (high, low) };
+        let (first, last) = ((nearer - o) / d, (farther - o) / d);
+        let (later, sooner) = (first > p.near, last < p.far);
+        Some(Passage {
+            near: if later { first } else { p.near },
+            entry: if later { face_number(axis, !forward) } else { p.entry },
+            far: if sooner { last } else { p.far },
+            exit: if sooner { face_number(axis, forward) } else { p.exit },
+        })
     }
 
     fn crossing(distance: f64, face: u32, exiting: bool) -> Crossing {

@@ -21,6 +21,15 @@ macro_rules! answers_by_inner {
             ) {
                 raysect_core::Primitive::crossings(&self.0, ray, scratch, out);
             }
+            fn crossings_within(
+                &self,
+                ray: &raysect_core::Ray,
+                within: raysect_core::Interval,
+                scratch: &mut raysect_core::Scratch,
+                out: &mut Vec<raysect_core::Crossing>,
+            ) {
+                raysect_core::Primitive::crossings_within(&self.0, ray, within, scratch, out);
+            }
             fn hit(
                 &self,
                 ray: &raysect_core::Ray,

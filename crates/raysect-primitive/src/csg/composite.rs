@@ -8,7 +8,7 @@ use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
 use super::Operand;
 use super::operand::{Member, Probe};
-use super::tie::{Order, TieRule, larger};
+use super::tie::{EXAMINED, Order, TieRule, larger};
 use crate::PrimitiveError;
 
 /// What is made of two bodies A and B.
@@ -140,24 +140,40 @@ impl Composite {
         nearest.map(|c| Crossing { distance: 0.0, ..c })
     }
 
-    /// Lends the crossings of the composite one by one, in order.
+    /// Lends the crossings of the composite one by one, in order: all that lie in an interval, and such others that what
+    /// is inside there comes out right.
+    ///
+    /// Where the first operand is passed is all that matters of the second one, unless they are united. The intervals
+    /// are wider than they need be by what crossings can be apart that are one event.
     #[inline]
-    fn visit(&self, ray: &Ray, scratch: &mut Scratch, mut emit: impl FnMut(Crossing) -> ControlFlow<()>) {
+    fn visit(
+        &self,
+        ray: &Ray,
+        within: Interval,
+        scratch: &mut Scratch,
+        mut emit: impl FnMut(Crossing) -> ControlFlow<()>,
+    ) {
         let probe = Probe::new(ray);
-        let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
+        let doubt = probe.distance_of(self.reach);
+        let widened = |first: f64, last: f64| {
+            Interval::new(first - EXAMINED * (doubt + first.abs()), last + EXAMINED * (doubt + last.abs()))
+        };
+        let within = widened(within.min, within.max);
         let mut both = scratch.take();
-        if self.tests[0].as_ref().is_none_or(|bounds| probe.meets(bounds, everywhere.0, everywhere.1)) {
-            self.a.crossings(ray, scratch, &mut both);
+        if self.tests[0].as_ref().is_none_or(|bounds| probe.meets(bounds, within.min, within.max)) {
+            self.a.crossings_within(ray, within, scratch, &mut both);
         }
         let first_of_b = both.len();
-        // Where the second operand matters.
-        let (first, last) = match (both.first(), both.last()) {
-            _ if self.operation == Operation::Union => everywhere,
-            (Some(first), Some(last)) => (first.distance, last.distance),
+        let of_b = match (both.first(), both.last()) {
+            _ if self.operation == Operation::Union => within,
+            (Some(first), Some(last)) if first.distance <= within.max && last.distance >= within.min => {
+                let passed = widened(first.distance, last.distance);
+                Interval::new(larger(passed.min, within.min), -larger(-passed.max, -within.max))
+            }
             _ => return scratch.give_back(both),
         };
-        if self.tests[1].as_ref().is_none_or(|bounds| probe.meets(bounds, first, last)) {
-            self.b.crossings(ray, scratch, &mut both);
+        if self.tests[1].as_ref().is_none_or(|bounds| probe.meets(bounds, of_b.min, of_b.max)) {
+            self.b.crossings_within(ray, of_b, scratch, &mut both);
         }
         let (a, b) = both.split_at(first_of_b);
         let _ = self.merge(ray, a, b, &mut emit);
@@ -260,7 +276,12 @@ impl Primitive for Composite {
     }
 
     fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
-        self.visit(ray, scratch, |crossing| {
+        let line = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
+        self.crossings_within(ray, line, scratch, out);
+    }
+
+    fn crossings_within(&self, ray: &Ray, within: Interval, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
+        self.visit(ray, within, scratch, |crossing| {
             out.push(crossing);
             ControlFlow::Continue(())
         });
@@ -268,7 +289,7 @@ impl Primitive for Composite {
 
     fn hit(&self, ray: &Ray, within: Interval, scratch: &mut Scratch) -> Option<Crossing> {
         let mut first = None;
-        self.visit(ray, scratch, |crossing| {
+        self.visit(ray, within, scratch, |crossing| {
             if within.contains(crossing.distance) {
                 first = Some(crossing);
                 return ControlFlow::Break(());

@@ -1,9 +1,10 @@
 use std::sync::Arc;
 
 use raysect_core::save::{SaveError, Saved, SceneWriter};
-use raysect_core::{BoundingBox3D, Crossing, Primitive, Ray, Scratch, Surface};
+use raysect_core::{BoundingBox3D, Crossing, Interval, Primitive, Ray, Scratch, Surface};
 use raysect_math::{AffineMatrix3D, MathError, Normal3D, Point3D};
 
+use super::tie::larger;
 use crate::PrimitiveError;
 
 /// A shape and its place in the space of the composite that is made of it.
@@ -133,6 +134,22 @@ impl Member {
         }
     }
 
+    /// Appends the crossings of the line that matter within an interval.
+    #[inline]
+    pub(super) fn crossings_within(
+        &self,
+        ray: &Ray,
+        within: Interval,
+        scratch: &mut Scratch,
+        out: &mut Vec<Crossing>,
+    ) {
+        if self.in_place {
+            self.shape.crossings_within(ray, within, scratch, out);
+        } else {
+            self.shape.crossings_within(&self.local(ray), within, scratch, out);
+        }
+    }
+
     /// The box around the operand under a map of the composite.
     pub(super) fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
         self.shape.bounding_box(&(*m * self.to_parent))
@@ -180,6 +197,15 @@ impl Probe {
     pub(super) fn new(ray: &Ray) -> Self {
         let d = ray.direction;
         Self { origin: ray.origin.to_array(), inverse: [1.0 / d.x, 1.0 / d.y, 1.0 / d.z] }
+    }
+
+    /// A length [m], or the greatest coordinate of the origin if that is more, as a distance along the line, at least.
+    #[inline]
+    pub(super) fn distance_of(&self, length: f64) -> f64 {
+        let smaller = |a: f64, b: f64| if a < b { a } else { b };
+        let [x, y, z] = self.inverse.map(f64::abs);
+        let [a, b, c] = self.origin.map(f64::abs);
+        larger(larger(larger(a, b), c), length) * smaller(smaller(x, y), z)
     }
 
     /// True if the line meets the box at a distance between `first` and `last`. Comparisons with a NaN, of a line in the

@@ -12,6 +12,9 @@ const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// others down to slopes of one over this.
 const GRAZING: f64 = 16_777_216.0;
 
+/// Crossings that are farther apart than this part of the lengths that enter are told apart by their distances alone.
+pub(super) const EXAMINED: f64 = 4.0 * GRAZING * ROUNDING;
+
 /// Which of two crossings comes first, one of each operand.
 pub(super) enum Order {
     First,
@@ -40,7 +43,7 @@ impl<'a> TieRule<'a> {
         let d = ray.direction;
         let speed = larger(larger(d.x.abs(), d.y.abs()), d.z.abs());
         let lengths = larger(ray.origin.max_abs(), composite.reach) / speed + farthest;
-        Self { composite, ray, near: 4.0 * GRAZING * ROUNDING * lengths }
+        Self { composite, ray, near: EXAMINED * lengths }
     }
 
     #[inline]
