@@ -9,7 +9,8 @@ use raysect::core::{Intersection, Node, Ray, World};
 use raysect::math::{Normal3D, Point3D, Vector3D};
 use serde_json::Value;
 
-use crate::json::{array, field, flag, list, number, numbers, text};
+use crate::finding::Finding;
+use crate::json::{array, field, flag, list, number, numbers, same_length, text};
 use crate::recorded_shape;
 
 /// How far distances may differ, in units of (distance + size of the shape).
@@ -32,18 +33,6 @@ pub(crate) struct Case {
     size: f64,
     rays: Vec<(Ray, Vec<Recorded>)>,
     points: Vec<(Point3D, bool)>,
-}
-
-/// What the comparison of a case finds.
-pub(crate) struct Finding {
-    pub(crate) id: String,
-    pub(crate) rays: usize,
-    /// How many things were compared: numbers of crossings, distances, normals, directions of passage, points.
-    pub(crate) compared: usize,
-    /// A sentence for each that differs.
-    pub(crate) mismatches: Vec<String>,
-    /// The largest difference of a distance, in units of (distance + size), or of a normal.
-    pub(crate) max_error: f64,
 }
 
 /// Reads and compares a file line by line, and hands over what each case gives.
@@ -96,13 +85,7 @@ impl Case {
 
     /// Compares all rays and points. An error is a shape that cannot be asked.
     pub(crate) fn compare(self) -> Result<Finding, String> {
-        let mut finding = Finding {
-            id: self.id.clone(),
-            rays: self.rays.len(),
-            compared: 0,
-            mismatches: Vec::new(),
-            max_error: 0.0,
-        };
+        let mut finding = Finding::new(&self.id);
         for (number, (ray, recorded)) in self.rays.iter().enumerate() {
             let ours = self.world.crossings(ray).map_err(|e| format!("rays: entry {number}: {e}"))?;
             self.compare_ray(number, &ours, recorded, &mut finding);
@@ -146,20 +129,6 @@ impl Case {
     }
 }
 
-impl Finding {
-    fn expect(&mut self, holds: bool, sentence: impl FnOnce() -> String) {
-        self.compared += 1;
-        if !holds {
-            self.mismatches.push(sentence());
-        }
-    }
-
-    fn measure(&mut self, error: f64, tolerance: f64, sentence: impl FnOnce() -> String) {
-        self.expect(error <= tolerance, sentence);
-        self.max_error = self.max_error.max(error);
-    }
-}
-
 fn ray(value: &Value) -> Result<Ray, String> {
     let [ox, oy, oz, dx, dy, dz] = numbers(value)?;
     Ok(Ray::new(Point3D::new(ox, oy, oz), Vector3D::new(dx, dy, dz)))
@@ -170,11 +139,6 @@ fn recorded(value: &Value) -> Result<Recorded, String> {
     let items: [Value; 5] = array(value, |v| Ok(v.clone()))?;
     let [distance, x, y, z] = [0, 1, 2, 3].map(|i| number(&items[i]));
     Ok(Recorded { distance: distance?, normal: Normal3D::new(x?, y?, z?), exiting: flag(&items[4])? })
-}
-
-fn same_length(a: &str, count_a: usize, b: &str, count_b: usize) -> Result<(), String> {
-    let same = count_a == count_b;
-    if same { Ok(()) } else { Err(format!("{a} and {b}: {count_a} and {count_b} entries")) }
 }
 
 fn side(inside: bool) -> &'static str {

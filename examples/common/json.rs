@@ -63,3 +63,9 @@ pub(crate) fn array<T, const N: usize>(
 pub(crate) fn numbers<const N: usize>(value: &Value) -> Result<[f64; N], String> {
     array(value, number)
 }
+
+/// An error unless two lists have equally many entries.
+pub(crate) fn same_length(a: &str, count_a: usize, b: &str, count_b: usize) -> Result<(), String> {
+    let same = count_a == count_b;
+    if same { Ok(()) } else { Err(format!("{a} and {b}: {count_a} and {count_b} entries")) }
+}

@@ -6,12 +6,16 @@ mod comparison;
 mod cornell;
 #[path = "../common/crossings.rs"]
 mod crossings;
+#[path = "../common/finding.rs"]
+mod finding;
 #[path = "../common/json.rs"]
 mod json;
 #[path = "../common/recorded_shape.rs"]
 mod recorded_shape;
 #[path = "../common/reference.rs"]
 mod reference;
+#[path = "../common/values/mod.rs"]
+mod values;
 
 use std::fs::File;
 use std::io::{self, BufReader, Read};
@@ -20,11 +24,11 @@ use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
 use cornell::Variant;
-use crossings::Finding;
-use serde_json::json;
+use finding::Finding;
+use serde_json::{Value, json};
 
-/// Compares with frames of the Cornell box (`.npz` with `xyz_mean` and `xyz_error`, [row, column, XYZ]), and with
-/// crossings of rays with shapes (`.jsonl`, a case a line).
+/// Compares with frames of the Cornell box (`.npz` with `xyz_mean` and `xyz_error`, [row, column, XYZ]), with crossings
+/// of rays with shapes (`.jsonl`, a case a line), and with values of functions and maps (`.json`, an object of sections).
 #[derive(Parser)]
 struct Arguments {
     /// Files of recorded numbers.
@@ -58,6 +62,8 @@ enum Blocks {
 struct Tally {
     cases: usize,
     mismatches: usize,
+    /// Sections and parts of them that cannot be compared.
+    skipped: usize,
     refused: usize,
 }
 
@@ -68,9 +74,10 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let mut tally = Tally::default();
     for file in &arguments.files {
-        let done = match is_archive(file) {
-            Ok(true) => frame(&arguments, file, &mut tally),
-            Ok(false) => crossings(&arguments, file, &mut tally),
+        let done = match kind(file) {
+            Ok(Kind::Frame) => frame(&arguments, file, &mut tally),
+            Ok(Kind::Crossings) => crossings(&arguments, file, &mut tally),
+            Ok(Kind::Values(content)) => values(&arguments, &content, &mut tally),
             Err(e) => Err(e.to_string()),
         };
         if let Err(what) = done {
@@ -84,16 +91,53 @@ fn main() -> ExitCode {
             1 => ", 1 file refused".to_owned(),
             files => format!(", {files} files refused"),
         };
-        println!("{} cases, {} mismatches{refused}", tally.cases, tally.mismatches);
+        let skipped = if tally.skipped > 0 { format!(", {} skipped", tally.skipped) } else { String::new() };
+        println!("{} cases, {} mismatches{skipped}{refused}", tally.cases, tally.mismatches);
     }
     if tally.mismatches + tally.refused == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// True for a `.npz`, which is a ZIP archive, under whatever name.
-fn is_archive(file: &Path) -> io::Result<bool> {
+/// What a file holds, whatever its name.
+enum Kind {
+    Frame,
+    Crossings,
+    Values(Value),
+}
+
+/// A `.npz` is a ZIP archive; the first object of any other file tells what it is.
+fn kind(file: &Path) -> io::Result<Kind> {
     let mut beginning = Vec::new();
     File::open(file)?.take(2).read_to_end(&mut beginning)?;
-    Ok(beginning == b"PK")
+    if beginning == b"PK" {
+        return Ok(Kind::Frame);
+    }
+    let text = BufReader::new(File::open(file)?);
+    let first = serde_json::Deserializer::from_reader(text).into_iter().next();
+    Ok(match first {
+        Some(Ok(content)) if values::is_one(&content) => Kind::Values(content),
+        _ => Kind::Crossings,
+    })
+}
+
+/// Compares with a file of values.
+fn values(arguments: &Arguments, content: &Value, tally: &mut Tally) -> Result<(), String> {
+    let report = values::compare_all(content)?;
+    for found in &report.findings {
+        tally.cases += 1;
+        tally.mismatches += found.mismatches.len();
+        print(arguments, found);
+    }
+    tally.skipped += report.skipped.len();
+    for name in report.skipped {
+        match arguments.json {
+            true => println!(
+                "{}",
+                json!({"id": name, "compared": 0, "mismatches": 0, "max_error": 0.0, "skipped": true})
+            ),
+            false => println!("{name} skipped: nothing here can compare it"),
+        }
+    }
+    Ok(())
 }
 
 /// Compares with a file of crossings.
@@ -107,7 +151,7 @@ fn crossings(arguments: &Arguments, file: &Path, tally: &mut Tally) -> Result<()
 }
 
 fn print(arguments: &Arguments, found: &Finding) {
-    let Finding { id, rays, compared, mismatches, max_error } = found;
+    let Finding { id, compared, mismatches, max_error } = found;
     for sentence in mismatches.iter().take(DESCRIBED) {
         eprintln!("{id}: {sentence}");
     }
@@ -120,7 +164,7 @@ fn print(arguments: &Arguments, found: &Finding) {
             "{}",
             json!({"id": id, "compared": compared, "mismatches": mismatches, "max_error": max_error})
         ),
-        false => println!("{id} {rays} {mismatches} {max_error:.2e}"),
+        false => println!("{id} {compared} {mismatches} {max_error:.2e}"),
     }
 }
 

@@ -1,4 +1,5 @@
-//! Against numbers of Raysect: the Cornell box, also against itself in other formats, and crossings of rays with shapes.
+//! Against numbers of Raysect: the Cornell box, also against itself in other formats, crossings of rays with shapes, and
+//! values of functions and maps.
 //!
 //! `tests/data/cornell_glass.npz` and `cornell_diffuse.npz` were rendered with Raysect 0.9.1: 24×24 pixels, 15 bins over
 //! 375 to 740 nm, a field of view of 45 degrees from z = −3.3, and without the factor cos θ of its pinhole camera.
@@ -6,6 +7,8 @@
 //! `tests/data/crossings.jsonl` holds 40 rays and 40 points for each of 52 shapes: crossings by Raysect 0.9.1, those of
 //! tori by 50-digit arithmetic and those of meshes in double precision by a search through all triangles, since
 //! Raysect's own are good to 1e-3 and 1e-6 only.
+//!
+//! `tests/data/values.json` holds values by Raysect 0.9.1 with the relative tolerances within which they are right.
 
 #[path = "../../examples/common/comparison.rs"]
 mod comparison;
@@ -13,15 +16,20 @@ mod comparison;
 mod cornell;
 #[path = "../../examples/common/crossings.rs"]
 mod crossings;
+#[path = "../../examples/common/finding.rs"]
+mod finding;
 #[path = "../../examples/common/json.rs"]
 mod json;
 #[path = "../../examples/common/recorded_shape.rs"]
 mod recorded_shape;
 #[path = "../../examples/common/reference.rs"]
 mod reference;
+#[path = "../../examples/common/values/mod.rs"]
+mod values;
 
 mod controls;
 mod formats;
 mod frames;
 mod recorded_crossings;
+mod recorded_values;
 mod spectra;

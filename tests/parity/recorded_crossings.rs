@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use crate::crossings::{Finding, compare_all};
+use crate::crossings::compare_all;
+use crate::finding::Finding;
 
 /// The lines of the recorded file.
 fn recorded() -> String {
@@ -39,8 +40,8 @@ fn crossings(cases: &mut [Value]) -> impl Iterator<Item = &mut Value> {
 #[test]
 fn all_shapes_cross_rays_where_recorded() {
     let all = compare(&recorded()).unwrap();
-    for Finding { id, rays, mismatches, max_error, .. } in &all {
-        println!("{id} {rays} {} {max_error:.1e}", mismatches.len());
+    for Finding { id, compared, mismatches, max_error } in &all {
+        println!("{id} {compared} {} {max_error:.1e}", mismatches.len());
     }
     let wrong: Vec<_> = all.iter().flat_map(|f| f.mismatches.iter().map(|m| (&f.id, m))).collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
