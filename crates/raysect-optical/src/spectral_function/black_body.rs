@@ -112,7 +112,12 @@ impl SpectralFunction for BlackBody {
             return self.scale * emissivity.evaluate(max) * self.band(min.max(0.0), max);
         }
         let product = |wavelength: f64| emissivity.evaluate(wavelength) * self.radiance(wavelength);
-        self.scale * numerical_integral(&product, min, max, resolution)
+        // Quadrature is blind to some kinks, so that it has to stop at each.
+        let mut edges = vec![min];
+        edges.extend(emissivity.knots().iter().filter(|knot| (min..max).contains(knot)));
+        edges.push(max);
+        let pieces = edges.windows(2).map(|w| numerical_integral(&product, w[0], w[1], resolution));
+        self.scale * pieces.sum::<f64>()
     }
 
     fn resolution(&self) -> f64 {

@@ -155,6 +155,10 @@ impl SpectralFunction for InterpolatedSf {
         self.primitive(max) - self.primitive(min)
     }
 
+    fn knots(&self) -> &[f64] {
+        &self.wavelengths
+    }
+
     fn resolution(&self) -> f64 {
         self.wavelengths.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min)
     }
@@ -185,10 +189,10 @@ mod tests {
             std::fs::write(&path, text).unwrap();
             InterpolatedSf::from_csv_in(&path, unit)
         };
-        let expected = InterpolatedSf::new([400.0, 500.5], [0.25, 0.5]).unwrap();
-        assert_eq!(read("# nm\n400, 0.25\n500.5, 0.5\n", WavelengthUnit::Nanometre).unwrap(), expected);
-        assert_eq!(read("0.4 0.25\n0.5005 0.5\n", WavelengthUnit::Micrometre).unwrap(), expected);
-        assert_eq!(read("4000;0.25\n5005;0.5\n", WavelengthUnit::Angstrom).unwrap(), expected);
+        let expected = InterpolatedSf::new([400.0, 546.1], [0.25, 0.5]).unwrap();
+        assert_eq!(read("# nm\n400, 0.25\n546.1, 0.5\n", WavelengthUnit::Nanometre).unwrap(), expected);
+        assert_eq!(read("0.4 0.25\n0.5461 0.5\n", WavelengthUnit::Micrometre).unwrap(), expected);
+        assert_eq!(read("4000;0.25\n5461;0.5\n", WavelengthUnit::Angstrom).unwrap(), expected);
         let message = |text| read(text, WavelengthUnit::Micrometre).unwrap_err().to_string();
         let repeated = message("# um\n0.4, 1\n\n0.4, 2\n");
         assert!(

@@ -62,6 +62,11 @@ pub trait SpectralFunction: Send + Sync + 'static {
         (0..bins).map(|i| self.average(edge(i), edge(i + 1))).collect()
     }
 
+    /// Wavelengths [nm] in ascending order where it has a kink: a table's own. None by default.
+    fn knots(&self) -> &[f64] {
+        &[]
+    }
+
     /// What a file needs to know to make it again; see [`raysect_core::save`]. Closures cannot be saved.
     ///
     /// # Errors
@@ -119,6 +124,9 @@ impl SpectralFunction for Arc<dyn SpectralFunction> {
     }
     fn resolution(&self) -> f64 {
         (**self).resolution()
+    }
+    fn knots(&self) -> &[f64] {
+        (**self).knots()
     }
     fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
         writer.shared(self, |function, writer| function.save(writer))
