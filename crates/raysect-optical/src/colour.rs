@@ -41,6 +41,12 @@ impl CieObserver {
         }
     }
 
+    /// The averages of x̄, ȳ, z̄ over each bin.
+    pub fn resample(self, slicing: &Slicing) -> Vec<[f64; 3]> {
+        let [x, y, z] = sampled(self, slicing);
+        (0..slicing.bins()).map(|i| [x[i], y[i], z[i]]).collect()
+    }
+
     /// The tristimulus values of a spectrum.
     pub fn tristimulus(self, spectrum: &Spectrum) -> [f64; 3] {
         sampled(self, spectrum.slicing()).map(|averages| {
@@ -71,8 +77,7 @@ fn sampled(observer: CieObserver, slicing: &Slicing) -> [Vec<f64>; 3] {
 
 /// The averages of x̄, ȳ, z̄ over each bin.
 pub fn resample_ciexyz(slicing: &Slicing) -> Vec<[f64; 3]> {
-    let [x, y, z] = sampled(CieObserver::default(), slicing);
-    (0..slicing.bins()).map(|i| [x[i], y[i], z[i]]).collect()
+    CieObserver::default().resample(slicing)
 }
 
 /// The tristimulus values of a spectrum.
