@@ -112,9 +112,9 @@ fn kind(file: &Path) -> io::Result<Kind> {
         return Ok(Kind::Frame);
     }
     let text = BufReader::new(File::open(file)?);
-    let first = serde_json::Deserializer::from_reader(text).into_iter().next();
+    let first = serde_json::Deserializer::from_reader(text).into_iter::<Value>().next();
     Ok(match first {
-        Some(Ok(content)) if values::is_one(&content) => Kind::Values(content),
+        Some(Ok(content)) if content.get(values::TOLERANCE).is_some() => Kind::Values(content),
         _ => Kind::Crossings,
     })
 }

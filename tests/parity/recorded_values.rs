@@ -126,12 +126,14 @@ fn what_cannot_be_compared_is_reported_as_skipped() {
     assert!(compare_all(&only(&[])).is_err());
 }
 
+type Change = Box<dyn Fn(&mut Value)>;
+
 #[test]
 fn malformed_sections_are_refused_with_their_name() {
     let set = |pointer: &'static str, value: Value| {
         move |file: &mut Value| *file.pointer_mut(pointer).unwrap() = value.clone()
     };
-    let changes: [(&str, Box<dyn Fn(&mut Value)>); 9] = [
+    let changes: [(&str, Change); 9] = [
         (
             "tolerance: there is no 'mesh2d'",
             Box::new(|f| drop(f["tolerance"].as_object_mut().unwrap().remove("mesh2d"))),

@@ -44,7 +44,7 @@ pub use sampling::{
     SphericalRectangleSampler, SphericalTriangleSampler, TargetSphere, TargetedHemisphereSampler,
     TargetedSphereSampler,
 };
-pub use stats::{Statistics, StatisticsArray, format_with_error};
+pub use stats::{BlockStatistics, Statistics, StatisticsArray, format_with_error};
 pub use transform::{
     extract_rotation, extract_rotation_z_up, extract_translation, from_cylindrical, rotate, rotate_basis,
     rotate_vector, rotate_x, rotate_y, rotate_z, to_cylindrical, translate,

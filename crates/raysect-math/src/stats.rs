@@ -1,9 +1,11 @@
 //! Means with their standard errors, gathered sample by sample and merged in any order.
 
 mod array;
+mod block;
 mod format;
 
 pub use array::StatisticsArray;
+pub use block::BlockStatistics;
 pub use format::format_with_error;
 
 use std::fmt;

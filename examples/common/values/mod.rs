@@ -51,13 +51,8 @@ const SECTIONS: [(&str, Compare); 8] = [
     ("traces", traces::compare),
 ];
 
-/// The entry that is not a section.
-const TOLERANCE: &str = "tolerance";
-
-/// True for a file of values, which tells its tolerances.
-pub(crate) fn is_one(file: &Value) -> bool {
-    file.get(TOLERANCE).is_some()
-}
+/// The entry that is not a section, by which a file of values is known.
+pub(crate) const TOLERANCE: &str = "tolerance";
 
 /// Compares all sections of a file.
 pub(crate) fn compare_all(file: &Value) -> Result<Report, String> {
