@@ -23,9 +23,10 @@ pub use crate::observer::{
 };
 pub use crate::optical::library::schott;
 pub use crate::optical::{
-    AbsorbingSurface, Bsdf, Checkerboard, Context, Dielectric, Facts, InterpolatedSf, Lambert, LightSampling,
-    Material, Materials, NullMaterial, Path, PathSettings, Ray, Scatter, Sellmeier, SpectralFunction,
-    SpectralTable, Spectrum, SurfaceHit, UniformSurfaceEmitter, WithMaterial, World,
+    AbsorbingSurface, BlackBody, Bsdf, Checkerboard, Context, Dielectric, Facts, GaussianLine,
+    InterpolatedSf, Lambert, LightSampling, Material, Materials, NullMaterial, NumericallyIntegratedSf, Path,
+    PathSettings, Ray, Scatter, Sellmeier, SpectralFunction, SpectralTable, Spectrum, SurfaceHit, TopHat,
+    UniformSurfaceEmitter, WavelengthUnit, WithMaterial, World,
 };
 pub use crate::optical::{
     Dispersion, HenyeyGreenstein, HomogeneousVolumeEmitter, InhomogeneousVolumeEmitter, ProfileVolume,

@@ -31,5 +31,6 @@ mod controls;
 mod formats;
 mod frames;
 mod recorded_crossings;
+mod recorded_spectra;
 mod recorded_values;
 mod spectra;

@@ -47,6 +47,7 @@ fn materials() -> Vec<Optics> {
     let sellmeier =
         Sellmeier::new([1.03961212, 0.231792344, 1.01046945], [0.00600069867, 0.0200179144, 103.560653])
             .unwrap();
+    let lamp = BlackBody::new(2856.1).unwrap().emissivity(table.clone()).scaled(0.1);
     let glass = Dielectric::new(sellmeier, table.clone()).unwrap().external_index(1.33).priority(-3);
     let board = Checkerboard::new(0.3).unwrap().spectra((table.clone(), 0.1), (0.7, 0.2)).importance(0.4);
     vec![
@@ -55,6 +56,10 @@ fn materials() -> Vec<Optics> {
         Optics::new(Lambert::new(table.clone())),
         Optics::new(UniformSurfaceEmitter::new(table, 1.5).importance(3.0)),
         Optics::new(board),
+        Optics::new(Lambert::new(Spectrum::from_samples(400.0, 500.5, vec![0.1, 1.0 / 3.0]).unwrap())),
+        Optics::new(Lambert::new(TopHat::new(400.0, 500.5, 1.0 / 3.0).unwrap())),
+        Optics::new(UniformSurfaceEmitter::new(GaussianLine::new(588.995, 0.1, 1.0 / 3.0).unwrap(), 1.0)),
+        Optics::new(UniformSurfaceEmitter::new(lamp, 1.0)),
         Optics::new(glass.transmission_only(true).importance(0.5).named("flint \"7\"")),
     ]
 }

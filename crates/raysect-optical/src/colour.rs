@@ -6,7 +6,8 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
-use crate::library::table::columns;
+pub use crate::library::d65_white;
+use crate::library::table::{columns, proven};
 use crate::{InterpolatedSf, Slicing, SpectralTable, Spectrum};
 
 /// The integral of ȳ over the visible range [nm] by which Raysect divides the colour matching functions.
@@ -39,10 +40,23 @@ impl CieObserver {
             }
         }
     }
+
+    /// The averages of x̄, ȳ, z̄ over each bin.
+    pub fn resample(self, slicing: &Slicing) -> Vec<[f64; 3]> {
+        let [x, y, z] = sampled(self, slicing);
+        (0..slicing.bins()).map(|i| [x[i], y[i], z[i]]).collect()
+    }
+
+    /// The tristimulus values of a spectrum.
+    pub fn tristimulus(self, spectrum: &Spectrum) -> [f64; 3] {
+        sampled(self, spectrum.slicing()).map(|averages| {
+            averages.iter().zip(spectrum.samples()).map(|(c, s)| c * s).sum::<f64>() * spectrum.bin_width()
+        })
+    }
 }
 
 fn matching_functions(text: &str) -> [SpectralTable; 3] {
-    let [w, x, y, z] = built_in(text);
+    let [w, x, y, z] = proven(columns(Path::new("built-in table"), text));
     // Zero beyond the ends, where the table has fallen to 1e-4 and less.
     let beyond = [w[0] - 1.0, w[w.len() - 1] + 1.0];
     let enclose = |middle: Vec<f64>, ends: [f64; 2]| -> Vec<f64> {
@@ -55,41 +69,20 @@ fn matching_functions(text: &str) -> [SpectralTable; 3] {
     })
 }
 
-/// The CIE standard illuminant D65 (ISO 11664-2), 300 … 830 nm at 5 nm, scaled to an average of 1 over 375 … 785 nm.
-///
-/// Its luminance is therefore Y = 1.134, not 1.
-pub fn d65_white() -> InterpolatedSf {
-    let [wavelengths, power] = built_in(include_str!("../data/illuminant/d65_5nm.csv"));
-    proven(InterpolatedSf::new(wavelengths, power)).scaled(1.0 / 87.1971)
-}
-
-/// Data files of this crate are read by its tests, so that reading them cannot fail later.
-fn built_in<const N: usize>(text: &str) -> [Vec<f64>; N] {
-    proven(columns(Path::new("built-in table"), text))
-}
-
-fn proven<T>(result: Result<T, crate::OpticalError>) -> T {
-    result.unwrap_or_else(|error| unreachable!("a data file of this crate: {error}"))
+/// The three averages of x̄, ȳ, z̄ over each bin.
+fn sampled(observer: CieObserver, slicing: &Slicing) -> [Vec<f64>; 3] {
+    let (min, max) = (slicing.min_wavelength(), slicing.max_wavelength());
+    observer.curves().each_ref().map(|curve| curve.function().sample(min, max, slicing.bins()))
 }
 
 /// The averages of x̄, ȳ, z̄ over each bin.
 pub fn resample_ciexyz(slicing: &Slicing) -> Vec<[f64; 3]> {
-    let sampled = CieObserver::default().curves().each_ref().map(|curve| {
-        curve.function().sample(slicing.min_wavelength(), slicing.max_wavelength(), slicing.bins())
-    });
-    (0..slicing.bins()).map(|i| [sampled[0][i], sampled[1][i], sampled[2][i]]).collect()
+    CieObserver::default().resample(slicing)
 }
 
 /// The tristimulus values of a spectrum.
 pub fn spectrum_to_ciexyz(spectrum: &Spectrum) -> [f64; 3] {
-    let mut xyz = [0.0; 3];
-    for (channel, curve) in CieObserver::default().curves().iter().enumerate() {
-        let (low, high) = (spectrum.min_wavelength(), spectrum.max_wavelength());
-        let averages = curve.function().sample(low, high, spectrum.bins());
-        xyz[channel] =
-            averages.iter().zip(spectrum.samples()).map(|(c, s)| c * s).sum::<f64>() * spectrum.bin_width();
-    }
-    xyz
+    CieObserver::default().tristimulus(spectrum)
 }
 
 /// Chromaticity x, y and luminance Y of tristimulus values; black has the chromaticity of equal energy, ⅓, ⅓.

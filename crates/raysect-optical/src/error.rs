@@ -92,12 +92,47 @@ pub enum OpticalError {
         /// The shape.
         shape: String,
     },
-    /// A glass that the library does not have.
-    #[error("no Schott glass '{name}' in the library; it has {known}")]
-    UnknownGlass {
+    /// Something that the library does not have.
+    #[error("no {what} '{name}' in the library; it has {known}")]
+    Unknown {
+        /// What was looked for: a Schott glass, a metal, a coloured spectrum.
+        what: &'static str,
         /// The name that was asked for.
         name: String,
         /// The names there are.
         known: String,
     },
+    /// Spectra of different ranges or bins, which cannot be combined.
+    #[error(
+        "a spectrum of {bins} bins over {min} … {max} nm and one of {other_bins} bins over {other_min} … {other_max} nm \
+         cannot be combined"
+    )]
+    Incompatible {
+        /// Bins of the first.
+        bins: usize,
+        /// Lower end of the first [nm].
+        min: f64,
+        /// Upper end of the first [nm].
+        max: f64,
+        /// Bins of the second.
+        other_bins: usize,
+        /// Lower end of the second [nm].
+        other_min: f64,
+        /// Upper end of the second [nm].
+        other_max: f64,
+    },
+    /// A number of samples that differs from the number of bins.
+    #[error("{samples} samples do not belong to {bins} bins")]
+    SampleCount {
+        /// How many samples.
+        samples: usize,
+        /// How many bins.
+        bins: usize,
+    },
+}
+
+impl OpticalError {
+    pub(crate) fn unknown(what: &'static str, name: &str, known: impl Iterator<Item = &'static str>) -> Self {
+        Self::Unknown { what, name: name.to_owned(), known: known.collect::<Vec<_>>().join(", ") }
+    }
 }

@@ -84,6 +84,9 @@ pub use path::{Dispersion, LEDGER_NUMBERS, Ledger, LightSampling, Path, PathSett
 pub use ray::{Ray, SampledSpectrum};
 pub use register::{MaterialRegistry, OpticalEntry, SavedScene, register};
 pub use slice::{Slice, Slicing, SpectralTable, Table};
-pub use spectral_function::{InterpolatedSf, Sellmeier, SpectralFunction};
+pub use spectral_function::{
+    BlackBody, GaussianLine, InterpolatedSf, NumericallyIntegratedSf, Sellmeier, SpectralFunction, TopHat,
+    WavelengthUnit,
+};
 pub use spectrum::{Spectrum, photon_energy};
 pub use world::{Materials, Optics, Scene, WithMaterial, World};

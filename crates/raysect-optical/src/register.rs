@@ -3,8 +3,9 @@ use std::sync::Arc;
 use raysect_core::save::{Entry, MakeError, Registry, SaveError};
 
 use crate::{
-    AbsorbingSurface, Checkerboard, Dielectric, InterpolatedSf, Lambert, Material, NullMaterial, Optics,
-    Sellmeier, SpectralFunction, SpectralTable, UniformSurfaceEmitter, UniformVolume,
+    AbsorbingSurface, BlackBody, Checkerboard, Dielectric, GaussianLine, InterpolatedSf, Lambert, Material,
+    NullMaterial, Optics, Sellmeier, SpectralFunction, SpectralTable, Spectrum, TopHat,
+    UniformSurfaceEmitter, UniformVolume,
 };
 
 /// A world of shapes with materials as a file had it, and what was kept with it.
@@ -81,10 +82,24 @@ impl OpticalEntry for Entry<'_> {
 /// Teaches a registry how the materials and spectral functions of this crate are made of what a file says.
 pub fn register(registry: &mut Registry) {
     registry.function("Constant", |entry| Ok(entry.number("value")?));
+    registry.function("BlackBody", |entry| {
+        let body = BlackBody::new(entry.number("temperature")?)?;
+        Ok(body.emissivity(entry.function("emissivity")?).scaled(entry.number("scale")?))
+    });
+    registry.function("GaussianLine", |entry| {
+        Ok(GaussianLine::new(entry.number("centre")?, entry.number("sigma")?, entry.number("total")?)?)
+    });
     registry.function("InterpolatedSf", |entry| {
         Ok(InterpolatedSf::new(entry.numbers("wavelengths")?, entry.numbers("values")?)?)
     });
     registry.function("Sellmeier", |entry| Ok(Sellmeier::new(entry.array("b")?, entry.array("c")?)?));
+    registry.function("Spectrum", |entry| {
+        let (min, max) = (entry.number("min")?, entry.number("max")?);
+        Ok(Spectrum::from_samples(min, max, entry.numbers("samples")?)?)
+    });
+    registry.function("TopHat", |entry| {
+        Ok(TopHat::new(entry.number("min")?, entry.number("max")?, entry.number("value")?)?)
+    });
 
     registry.material("AbsorbingSurface", |_| Ok(AbsorbingSurface));
     registry.material("Checkerboard", |entry| {

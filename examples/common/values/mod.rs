@@ -3,12 +3,15 @@
 //! A file is an object of sections. `tolerance` has an entry for each: a relative tolerance, or an object of them by
 //! name. To compare another section, write a file with a `compare` like those here, and add it to [`SECTIONS`].
 
+mod colour;
 mod grid;
 mod group;
 mod interpolate1d;
 mod interpolate2d;
 mod interpolate3d;
 mod mesh2d;
+mod spectral;
+mod traces;
 mod transforms;
 
 use serde_json::Value;
@@ -37,12 +40,15 @@ pub(crate) struct Report {
 type Compare = fn(&Section<'_>, &mut Report) -> Result<(), String>;
 
 /// The sections that can be compared.
-const SECTIONS: [(&str, Compare); 5] = [
+const SECTIONS: [(&str, Compare); 8] = [
     ("transforms", transforms::compare),
     ("interpolate1d", interpolate1d::compare),
     ("interpolate2d", interpolate2d::compare),
     ("interpolate3d", interpolate3d::compare),
     ("mesh2d", mesh2d::compare),
+    ("spectral", spectral::compare),
+    ("colour", colour::compare),
+    ("traces", traces::compare),
 ];
 
 /// The entry that is not a section, by which a file of values is known.

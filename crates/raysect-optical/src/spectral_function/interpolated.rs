@@ -3,8 +3,8 @@ use std::path::Path;
 use raysect_core::save::{SaveError, Saved, SceneWriter};
 
 use super::SpectralFunction;
-use crate::OpticalError;
 use crate::library::table;
+use crate::{OpticalError, WavelengthUnit};
 
 /// A table of values, linear between its wavelengths and constant beyond its ends.
 ///
@@ -69,13 +69,21 @@ impl InterpolatedSf {
     /// lines that begin with `#` are comments.
     ///
     /// # Errors
-    /// [`OpticalError::File`], [`OpticalError::Line`], and as [`new`](Self::new).
+    /// [`OpticalError::File`] if it cannot be read, [`OpticalError::Line`] for the first line that is wrong: not two
+    /// numbers, or what [`new`](Self::new) refuses.
     pub fn from_csv(path: impl AsRef<Path>) -> Result<Self, OpticalError> {
+        Self::from_csv_in(path, WavelengthUnit::Nanometre)
+    }
+
+    /// The same from a file whose wavelengths are in another unit.
+    ///
+    /// # Errors
+    /// As [`from_csv`](Self::from_csv).
+    pub fn from_csv_in(path: impl AsRef<Path>, unit: WavelengthUnit) -> Result<Self, OpticalError> {
         let path = path.as_ref();
         let text = std::fs::read_to_string(path)
             .map_err(|source| OpticalError::File { path: path.to_owned(), source })?;
-        let [wavelengths, values] = table::columns::<2>(path, &text)?;
-        Self::new(wavelengths, values)
+        table::functions::<1>(path, &text, unit).map(|[function]| function)
     }
 
     /// The same table divided by its integral over its own range.
@@ -150,6 +158,13 @@ impl SpectralFunction for InterpolatedSf {
     fn is_constant(&self) -> bool {
         self.values.windows(2).all(|v| v[0] == v[1])
     }
+    fn knots(&self) -> &[f64] {
+        &self.wavelengths
+    }
+
+    fn resolution(&self) -> f64 {
+        self.wavelengths.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min)
+    }
 
     fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
         let saved = Saved::new("InterpolatedSf").numbers("wavelengths", &self.wavelengths);
@@ -168,6 +183,34 @@ mod tests {
         assert!(message(&[400.0, 500.0], &[1.0, f64::NAN]).contains("entry 1"));
         assert!(message(&[400.0, 500.0], &[1.0]).contains("lengths differ"));
         assert!(InterpolatedSf::new([0.0], [1.0]).is_err() && InterpolatedSf::new([], []).is_err());
+    }
+
+    #[test]
+    fn files_are_read_in_their_unit_and_their_faults_have_a_line() {
+        let path = std::env::temp_dir().join(format!("raysect-interpolated-{}.csv", std::process::id()));
+        let read = |text: &str, unit| {
+            std::fs::write(&path, text).unwrap();
+            InterpolatedSf::from_csv_in(&path, unit)
+        };
+        let expected = InterpolatedSf::new([400.0, 546.1], [0.25, 0.5]).unwrap();
+        assert_eq!(read("# nm\n400, 0.25\n546.1, 0.5\n", WavelengthUnit::Nanometre).unwrap(), expected);
+        assert_eq!(read("0.4 0.25\n0.5461 0.5\n", WavelengthUnit::Micrometre).unwrap(), expected);
+        assert_eq!(read("4000;0.25\n5461;0.5\n", WavelengthUnit::Angstrom).unwrap(), expected);
+        let message = |text| read(text, WavelengthUnit::Micrometre).unwrap_err().to_string();
+        let repeated = message("# um\n0.4, 1\n\n0.4, 2\n");
+        assert!(
+            repeated.contains("csv, line 4: wavelengths must ascend") && repeated.contains("400 nm"),
+            "{repeated}"
+        );
+        assert!(message("0.4, 1\n0.5, nan\n").contains("line 2: values must be finite"));
+        assert!(message("0.4, 1\n0.5\n").contains("line 2: 1 fields"));
+        assert!(message("# nothing\n").contains("no rows"));
+        std::fs::remove_file(&path).unwrap();
+        assert!(message_of_missing(&path).contains("raysect-interpolated"));
+    }
+
+    fn message_of_missing(path: &Path) -> String {
+        InterpolatedSf::from_csv(path).unwrap_err().to_string()
     }
 
     #[test]
