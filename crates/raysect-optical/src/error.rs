@@ -92,6 +92,12 @@ pub enum OpticalError {
         /// The shape.
         shape: String,
     },
+    /// A sum or blend of materials that contradicts itself.
+    #[error("a material made of two: {what}")]
+    Modifier {
+        /// What is wrong.
+        what: &'static str,
+    },
     /// A glass that the library does not have.
     #[error("no Schott glass '{name}' in the library; it has {known}")]
     UnknownGlass {

@@ -75,8 +75,10 @@ mod world;
 
 pub use error::OpticalError;
 pub use material::{
-    AbsorbingSurface, Bsdf, Checkerboard, Coefficients, Context, Dielectric, Facts, Lambert, Material,
-    Medium, MediumPoint, NullMaterial, Refraction, Scatter, SurfaceHit, UniformSurfaceEmitter,
+    AbsorbingSurface, Add, AnisotropicSurfaceEmitter, Blend, Bsdf, Checkerboard, Coefficients, Conductor,
+    Context, DebugLight, Dielectric, Facts, FresnelLaw, Lambert, Masking, Material, Medium, MediumPoint,
+    NullMaterial, PerfectReflectingSurface, Refraction, RoughConductor, RoughDielectric, Roughen, Scatter,
+    SurfaceHit, UniformSurfaceEmitter, UnitySurfaceEmitter,
 };
 pub use path::{LEDGER_NUMBERS, Ledger, LightSampling, Path, PathSettings};
 pub use ray::{Ray, SampledSpectrum};
