@@ -12,9 +12,11 @@ pub use crate::observer::{
 };
 pub use crate::optical::library::schott;
 pub use crate::optical::{
-    AbsorbingSurface, Bsdf, Checkerboard, Context, Dielectric, Facts, InterpolatedSf, Lambert, LightSampling,
-    Material, Materials, NullMaterial, Path, PathSettings, Ray, Scatter, Sellmeier, SpectralFunction,
-    SpectralTable, Spectrum, SurfaceHit, UniformSurfaceEmitter, WithMaterial, World,
+    AbsorbingSurface, Add, AnisotropicSurfaceEmitter, Blend, Bsdf, Checkerboard, Conductor, Context,
+    DebugLight, Dielectric, Facts, FresnelLaw, InterpolatedSf, Lambert, LightSampling, Masking, Material,
+    Materials, NullMaterial, Path, PathSettings, PerfectReflectingSurface, Ray, RoughConductor,
+    RoughDielectric, Roughen, Scatter, Sellmeier, SpectralFunction, SpectralTable, Spectrum, SurfaceHit,
+    UniformSurfaceEmitter, UnitySurfaceEmitter, WithMaterial, World,
 };
 pub use crate::primitive::{
     BiConcave, BiConvex, Cone, Cuboid, Cylinder, Intersect, Meniscus, Mesh, MeshData, Parabola, Place,

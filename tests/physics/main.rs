@@ -8,6 +8,8 @@ mod glass;
 mod irradiance;
 mod lights;
 mod materials;
+mod modifiers;
 mod plates;
+mod rough;
 mod scenes;
 mod wrong;

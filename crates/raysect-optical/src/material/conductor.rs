@@ -1,7 +1,6 @@
 use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_math::MathError;
 
-use super::mirror::reflect;
 use super::{Context, FresnelLaw, Material, Scatter, SurfaceHit};
 use crate::{OpticalError, Path, Slice, SpectralTable};
 
@@ -103,7 +102,7 @@ impl Material for Conductor {
     fn surface(&self, hit: &SurfaceHit, path: &mut Path<'_>) -> Scatter {
         let at = path.context();
         self.0.reflect(hit.cosine(), at, path.throughput());
-        reflect(hit)
+        Scatter::Continue { direction: hit.mirrored() }
     }
 
     fn check(&self, slice: &Slice) -> Result<(), OpticalError> {

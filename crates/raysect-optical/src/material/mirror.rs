@@ -9,17 +9,10 @@ pub struct PerfectReflectingSurface;
 
 impl Material for PerfectReflectingSurface {
     fn surface(&self, hit: &SurfaceHit, _: &mut Path<'_>) -> Scatter {
-        reflect(hit)
+        Scatter::Continue { direction: hit.mirrored() }
     }
 
     fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
         Ok(Saved::new("PerfectReflectingSurface"))
     }
-}
-
-/// Along the mirror direction of an opaque surface. A smoothed normal may turn that into the solid, where nothing
-/// goes on.
-pub(super) fn reflect(hit: &SurfaceHit) -> Scatter {
-    let direction = hit.mirrored();
-    if hit.leads_through(direction) { Scatter::Absorbed } else { Scatter::Continue { direction } }
 }

@@ -43,9 +43,11 @@ impl RoughDielectric {
     /// # Ok::<(), raysect_optical::OpticalError>(())
     /// ```
     ///
+    /// What meets the surface is reflected or refracted: [`transmission_only`](Dielectric::transmission_only) has no
+    /// effect.
+    ///
     /// # Errors
-    /// As [`new`](Self::new). Everything that meets the surface is reflected or refracted:
-    /// [`transmission_only`](Dielectric::transmission_only) has no effect.
+    /// As [`new`](Self::new).
     pub fn of(smooth: Dielectric, roughness: f64) -> Result<Self, OpticalError> {
         Ok(Self { smooth, facets: Ggx::new(roughness)? })
     }

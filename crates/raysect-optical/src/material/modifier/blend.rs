@@ -94,8 +94,8 @@ impl Material for Blend {
     }
 
     fn facts(&self) -> Facts {
-        let percent = 100.0 * self.ratio;
-        self.parts.facts(|first, second| format!("({first} with {percent} % {second})"))
+        let ratio = self.ratio;
+        self.parts.facts(|first, second| format!("({first}, {ratio} of it {second})"))
     }
 
     fn check(&self, slice: &Slice) -> Result<(), OpticalError> {
