@@ -23,14 +23,13 @@ pub use crate::observer::{
 };
 pub use crate::optical::library::schott;
 pub use crate::optical::{
-    AbsorbingSurface, BlackBody, Bsdf, Checkerboard, Context, Dielectric, Facts, GaussianLine,
-    InterpolatedSf, Lambert, LightSampling, Material, Materials, NullMaterial, NumericallyIntegratedSf, Path,
-    PathSettings, Ray, Scatter, Sellmeier, SpectralFunction, SpectralTable, Spectrum, SurfaceHit, TopHat,
-    UniformSurfaceEmitter, WavelengthUnit, WithMaterial, World,
-};
-pub use crate::optical::{
-    Dispersion, HenyeyGreenstein, HomogeneousVolumeEmitter, InhomogeneousVolumeEmitter, ProfileVolume,
-    Rayleigh, UniformVolume,
+    AbsorbingSurface, Add, AnisotropicSurfaceEmitter, BlackBody, Blend, Bsdf, Checkerboard, Conductor,
+    Context, DebugLight, Dielectric, Dispersion, Facts, FresnelLaw, GaussianLine, HenyeyGreenstein,
+    HomogeneousVolumeEmitter, InhomogeneousVolumeEmitter, InterpolatedSf, Lambert, LightSampling, Masking,
+    Material, Materials, NullMaterial, NumericallyIntegratedSf, Path, PathSettings, PerfectReflectingSurface,
+    ProfileVolume, Ray, Rayleigh, RoughConductor, RoughDielectric, Roughen, Scatter, Sellmeier,
+    SpectralFunction, SpectralTable, Spectrum, SurfaceHit, TopHat, UniformSurfaceEmitter, UniformVolume,
+    UnitySurfaceEmitter, WavelengthUnit, WithMaterial, World,
 };
 pub use crate::primitive::{
     BiConcave, BiConvex, Cone, Cuboid, Cylinder, Intersect, Meniscus, Mesh, MeshData, Parabola, Place,

@@ -50,17 +50,47 @@ fn materials() -> Vec<Optics> {
     let lamp = BlackBody::new(2856.1).unwrap().emissivity(table.clone()).scaled(0.1);
     let glass = Dielectric::new(sellmeier, table.clone()).unwrap().external_index(1.33).priority(-3);
     let board = Checkerboard::new(0.3).unwrap().spectra((table.clone(), 0.1), (0.7, 0.2)).importance(0.4);
-    vec![
+    let glass = glass.transmission_only(true).importance(0.5).named("flint \"7\"");
+    let light = DebugLight::new(Vector3D::new(0.1, -1.0, 0.3)).unwrap().intensity(0.7).unwrap();
+    let mut all = vec![
         Optics::new(AbsorbingSurface),
         Optics::new(NullMaterial),
+        Optics::new(PerfectReflectingSurface),
         Optics::new(Lambert::new(table.clone())),
-        Optics::new(UniformSurfaceEmitter::new(table, 1.5).importance(3.0)),
+        Optics::new(UniformSurfaceEmitter::new(table.clone(), 1.5).importance(3.0)),
+        Optics::new(UnitySurfaceEmitter::new().importance(0.1)),
+        Optics::new(light.spectrum(table.clone())),
         Optics::new(board),
         Optics::new(Lambert::new(Spectrum::from_samples(400.0, 500.5, vec![0.1, 1.0 / 3.0]).unwrap())),
         Optics::new(Lambert::new(TopHat::new(400.0, 500.5, 1.0 / 3.0).unwrap())),
         Optics::new(UniformSurfaceEmitter::new(GaussianLine::new(588.995, 0.1, 1.0 / 3.0).unwrap(), 1.0)),
         Optics::new(UniformSurfaceEmitter::new(lamp, 1.0)),
-        Optics::new(glass.transmission_only(true).importance(0.5).named("flint \"7\"")),
+        Optics::new(RoughDielectric::of(glass.clone(), 0.3).unwrap()),
+        Optics::new(glass),
+    ];
+    let rough = RoughConductor::new(table.clone(), 3.0, 0.1).unwrap();
+    let smooth = Conductor::new(table, 2.9);
+    for law in [FresnelLaw::Exact, FresnelLaw::LargeIndex] {
+        all.push(Optics::new(smooth.clone().fresnel(law)));
+        for masking in [Masking::Separable, Masking::HeightCorrelated] {
+            all.push(Optics::new(rough.clone().fresnel(law).masking(masking)));
+        }
+    }
+    all.extend(modifiers(Arc::new(smooth), Arc::new(rough)));
+    all
+}
+
+/// Every modifier, one within the other.
+fn modifiers(first: Arc<dyn Material>, second: Arc<dyn Material>) -> [Optics; 5] {
+    let blend = || Blend::new(first.clone(), second.clone(), 0.1).unwrap();
+    let rough: Arc<dyn Material> = Arc::new(Roughen::new(Arc::new(blend()), 0.3).unwrap());
+    let sum = || Add::new(rough.clone(), first.clone());
+    [
+        Optics::new(blend().surface_only().unwrap()),
+        Optics::new(blend().volume_only().unwrap()),
+        Optics::new(sum()),
+        Optics::new(sum().surface_only().unwrap()),
+        Optics::new(sum().volume_only().unwrap()),
     ]
 }
 

@@ -92,6 +92,12 @@ pub enum OpticalError {
         /// The shape.
         shape: String,
     },
+    /// A sum or blend of materials that contradicts itself.
+    #[error("a material made of two: {what}")]
+    Modifier {
+        /// What is wrong.
+        what: &'static str,
+    },
     /// Something that the library does not have.
     #[error("no {what} '{name}' in the library; it has {known}")]
     Unknown {

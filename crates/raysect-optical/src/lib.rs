@@ -59,6 +59,30 @@
 //!     }
 //! }
 //! ```
+//!
+//! A surface that leaves a path one way only, or a few, says so itself; its colour multiplies the throughput:
+//!
+//! ```
+//! use raysect_optical::{Material, Path, Scatter, SpectralTable, SurfaceHit};
+//!
+//! /// A thin coloured film that reflects a share of the light and lets the others pass.
+//! struct Film { reflected: f64, colour: SpectralTable }
+//!
+//! impl Material for Film {
+//!     fn surface(&self, hit: &SurfaceHit, path: &mut Path) -> Scatter {
+//!         if path.rng().probability(self.reflected) {
+//!             return Scatter::Continue { direction: hit.mirrored() };
+//!         }
+//!         let tables = path.slice();
+//!         for (t, colour) in path.throughput().iter_mut().zip(tables.table(&self.colour)) {
+//!             *t *= colour;
+//!         }
+//!         Scatter::PassThrough
+//!     }
+//! }
+//! ```
+//!
+//! [`testing::check_bsdf`] judges a surface of your own as it does those of the library.
 
 pub mod colour;
 mod error;
@@ -71,14 +95,17 @@ mod register;
 mod slice;
 mod spectral_function;
 mod spectrum;
+pub mod testing;
 mod world;
 
 pub use error::OpticalError;
 pub use material::{
-    AbsorbingSurface, Bsdf, Checkerboard, Coefficients, Context, Dielectric, Facts, HenyeyGreenstein,
-    HomogeneousVolumeEmitter, InhomogeneousVolumeEmitter, Lambert, Material, Medium, MediumPoint,
-    NullMaterial, PhaseFunction, ProfileVolume, Rayleigh, Refraction, Scatter, Structure, SurfaceHit,
-    UniformSurfaceEmitter, UniformVolume,
+    AbsorbingSurface, Add, AnisotropicSurfaceEmitter, Blend, Bsdf, Checkerboard, Coefficients, Conductor,
+    Context, DebugLight, Dielectric, Facts, FresnelLaw, HenyeyGreenstein, HomogeneousVolumeEmitter,
+    InhomogeneousVolumeEmitter, Lambert, Masking, Material, Medium, MediumPoint, NullMaterial,
+    PerfectReflectingSurface, PhaseFunction, ProfileVolume, Rayleigh, Refraction, RoughConductor,
+    RoughDielectric, Roughen, Scatter, Structure, SurfaceHit, UniformSurfaceEmitter, UniformVolume,
+    UnitySurfaceEmitter,
 };
 pub use path::{Dispersion, LEDGER_NUMBERS, Ledger, LightSampling, Path, PathSettings};
 pub use ray::{Ray, SampledSpectrum};

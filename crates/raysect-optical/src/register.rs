@@ -1,11 +1,14 @@
 use std::sync::Arc;
 
 use raysect_core::save::{Entry, MakeError, Registry, SaveError};
+use raysect_math::Vector3D;
 
+use crate::material::{LAWS, MASKINGS};
 use crate::{
-    AbsorbingSurface, BlackBody, Checkerboard, Dielectric, GaussianLine, InterpolatedSf, Lambert, Material,
-    NullMaterial, Optics, Sellmeier, SpectralFunction, SpectralTable, Spectrum, TopHat,
-    UniformSurfaceEmitter, UniformVolume,
+    AbsorbingSurface, Add, BlackBody, Blend, Checkerboard, Conductor, DebugLight, Dielectric, GaussianLine,
+    InterpolatedSf, Lambert, Material, NullMaterial, Optics, PerfectReflectingSurface, RoughConductor,
+    RoughDielectric, Roughen, Sellmeier, SpectralFunction, SpectralTable, Spectrum, TopHat,
+    UniformSurfaceEmitter, UniformVolume, UnitySurfaceEmitter,
 };
 
 /// A world of shapes with materials as a file had it, and what was kept with it.
@@ -101,23 +104,22 @@ pub fn register(registry: &mut Registry) {
         Ok(TopHat::new(entry.number("min")?, entry.number("max")?, entry.number("value")?)?)
     });
 
-    registry.material("AbsorbingSurface", |_| Ok(AbsorbingSurface));
+    emitters(registry);
+    surfaces(registry);
+    modifiers(registry);
+}
+
+fn emitters(registry: &mut Registry) {
     registry.material("Checkerboard", |entry| {
         let first = (entry.function("first")?, entry.number("first_scale")?);
         let second = (entry.function("second")?, entry.number("second_scale")?);
         let board = Checkerboard::new(entry.number("width")?)?.spectra(first, second);
         Ok(board.importance(entry.number("importance")?))
     });
-    registry.material("Dielectric", |entry| {
-        Ok(Dielectric::new(entry.function("index")?, entry.function("transmission")?)?
-            .named(entry.text("name")?)
-            .external_index(entry.function("external_index")?)
-            .priority(entry.integer("priority")?)
-            .transmission_only(entry.flag("transmission_only")?)
-            .importance(entry.number("importance")?))
+    registry.material("DebugLight", |entry| {
+        let light = DebugLight::new(Vector3D::from(entry.array::<3>("direction")?))?;
+        Ok(light.intensity(entry.number("intensity")?)?.spectrum(entry.function("spectrum")?))
     });
-    registry.material("Lambert", |entry| Ok(Lambert::new(entry.function("reflectivity")?)));
-    registry.material("NullMaterial", |_| Ok(NullMaterial));
     registry.material("UniformVolume", |entry| {
         let mut volume = UniformVolume::new().importance(entry.number("importance")?);
         if entry.has("emission") {
@@ -132,4 +134,64 @@ pub fn register(registry: &mut Registry) {
         let emitter = UniformSurfaceEmitter::new(entry.function("spectrum")?, entry.number("scale")?);
         Ok(emitter.importance(entry.number("importance")?))
     });
+    registry.material("UnitySurfaceEmitter", |entry| {
+        Ok(UnitySurfaceEmitter::new().importance(entry.number("importance")?))
+    });
+}
+
+fn surfaces(registry: &mut Registry) {
+    registry.material("AbsorbingSurface", |_| Ok(AbsorbingSurface));
+    registry.material("Conductor", |entry| {
+        let metal = Conductor::new(entry.function("index")?, entry.function("extinction")?);
+        Ok(metal.fresnel(entry.choice("fresnel", &LAWS)?))
+    });
+    registry.material("Dielectric", dielectric);
+    registry.material("Lambert", |entry| Ok(Lambert::new(entry.function("reflectivity")?)));
+    registry.material("NullMaterial", |_| Ok(NullMaterial));
+    registry.material("PerfectReflectingSurface", |_| Ok(PerfectReflectingSurface));
+    registry.material("RoughConductor", |entry| {
+        let (index, extinction) = (entry.function("index")?, entry.function("extinction")?);
+        let metal = RoughConductor::new(index, extinction, entry.number("roughness")?)?;
+        let metal = metal.fresnel(entry.choice("fresnel", &LAWS)?);
+        Ok(metal.masking(entry.choice("masking", &MASKINGS)?))
+    });
+    registry.material("RoughDielectric", |entry| {
+        let ground = RoughDielectric::of(dielectric(entry)?, entry.number("roughness")?)?;
+        Ok(ground.masking(entry.choice("masking", &MASKINGS)?))
+    });
+}
+
+fn dielectric(entry: &Entry<'_>) -> Result<Dielectric, MakeError> {
+    Ok(Dielectric::new(entry.function("index")?, entry.function("transmission")?)?
+        .named(entry.text("name")?)
+        .external_index(entry.function("external_index")?)
+        .priority(entry.integer("priority")?)
+        .transmission_only(entry.flag("transmission_only")?)
+        .importance(entry.number("importance")?))
+}
+
+fn modifiers(registry: &mut Registry) {
+    registry.material("Add", |entry| {
+        let mut sum = Add::new(entry.material("first")?, entry.material("second")?);
+        if entry.flag("surface_only")? {
+            sum = sum.surface_only()?;
+        }
+        if entry.flag("volume_only")? {
+            sum = sum.volume_only()?;
+        }
+        Ok(sum)
+    });
+    registry.material("Blend", |entry| {
+        let (first, second) = (entry.material("first")?, entry.material("second")?);
+        let mut blend = Blend::new(first, second, entry.number("ratio")?)?;
+        if entry.flag("surface_only")? {
+            blend = blend.surface_only()?;
+        }
+        if entry.flag("volume_only")? {
+            blend = blend.volume_only()?;
+        }
+        Ok(blend)
+    });
+    registry
+        .material("Roughen", |entry| Ok(Roughen::new(entry.material("base")?, entry.number("roughness")?)?));
 }

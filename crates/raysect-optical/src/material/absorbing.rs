@@ -1,6 +1,6 @@
 use raysect_core::save::{SaveError, Saved, SceneWriter};
 
-use super::{Material, Scatter, SurfaceHit};
+use super::{Facts, Material, Scatter, SurfaceHit};
 use crate::Path;
 
 /// A black surface: it absorbs everything and emits nothing.
@@ -10,6 +10,10 @@ pub struct AbsorbingSurface;
 impl Material for AbsorbingSurface {
     fn surface(&self, _: &SurfaceHit, _: &mut Path<'_>) -> Scatter {
         Scatter::Absorbed
+    }
+
+    fn facts(&self) -> Facts {
+        Facts { absorbs: true, ..Facts::named("AbsorbingSurface") }
     }
 
     fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {

@@ -78,6 +78,18 @@ impl Dielectric {
     pub fn transmission(&self) -> &SpectralTable {
         &self.transmission
     }
+
+    /// Adds what its constructor needs to what is saved.
+    pub(super) fn save_into(&self, saved: Saved, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(saved
+            .text("name", &self.name)
+            .reference("index", writer.object(&self.refraction.index)?)
+            .reference("external_index", writer.object(&self.refraction.external_index)?)
+            .integer("priority", self.refraction.priority.into())
+            .reference("transmission", writer.object(&self.transmission)?)
+            .flag("transmission_only", self.transmission_only)
+            .number("importance", self.importance))
+    }
 }
 
 /// The attenuation [1/m] whose bin is that of the average transmission of the bin, as Raysect has it.
@@ -170,14 +182,7 @@ impl Material for Dielectric {
     }
 
     fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
-        Ok(Saved::new("Dielectric")
-            .text("name", &self.name)
-            .reference("index", writer.object(&self.refraction.index)?)
-            .reference("external_index", writer.object(&self.refraction.external_index)?)
-            .integer("priority", self.refraction.priority.into())
-            .reference("transmission", writer.object(&self.transmission)?)
-            .flag("transmission_only", self.transmission_only)
-            .number("importance", self.importance))
+        self.save_into(Saved::new("Dielectric"), writer)
     }
 }
 

@@ -2,11 +2,15 @@
 
 mod absorbing;
 mod bsdf;
-mod checkerboard;
+mod conductor;
 mod dielectric;
 mod emitter;
+mod fresnel;
 mod lambert;
 mod medium;
+mod microfacet;
+mod mirror;
+mod modifier;
 mod null;
 mod phase_function;
 mod surface_hit;
@@ -16,12 +20,20 @@ use std::sync::Arc;
 
 pub use absorbing::AbsorbingSurface;
 pub use bsdf::Bsdf;
-pub use checkerboard::Checkerboard;
+pub use conductor::Conductor;
+pub(crate) use conductor::LAWS;
 pub use dielectric::Dielectric;
-pub use emitter::UniformSurfaceEmitter;
+pub use emitter::{
+    AnisotropicSurfaceEmitter, Checkerboard, DebugLight, UniformSurfaceEmitter, UnitySurfaceEmitter,
+};
+pub use fresnel::FresnelLaw;
 pub use lambert::Lambert;
 pub(crate) use medium::scatters;
 pub use medium::{Coefficients, Medium, MediumPoint, Refraction, Structure};
+pub(crate) use microfacet::MASKINGS;
+pub use microfacet::{Masking, RoughConductor, RoughDielectric};
+pub use mirror::PerfectReflectingSurface;
+pub use modifier::{Add, Blend, Roughen};
 pub use null::NullMaterial;
 pub use phase_function::{HenyeyGreenstein, PhaseFunction, Rayleigh};
 pub use surface_hit::SurfaceHit;
@@ -72,12 +84,26 @@ pub struct Facts {
     pub transparent: bool,
     /// True if its refraction depends on the wavelength.
     pub disperses: bool,
+    /// True if no path ever goes on from the surface: it is black, though it may emit.
+    pub absorbs: bool,
 }
 
 impl Facts {
     /// The facts of an opaque, dark surface.
     pub fn named(name: impl Into<String>) -> Self {
-        Self { name: name.into(), importance: 0.0, emits: false, transparent: false, disperses: false }
+        Self {
+            name: name.into(),
+            importance: 0.0,
+            emits: false,
+            transparent: false,
+            disperses: false,
+            absorbs: false,
+        }
+    }
+
+    /// The facts of a surface that emits and reflects nothing.
+    pub fn emitter(name: impl Into<String>) -> Self {
+        Self { emits: true, absorbs: true, ..Self::named(name) }
     }
 }
 

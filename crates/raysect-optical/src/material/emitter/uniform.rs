@@ -1,6 +1,6 @@
-use raysect_core::save::{SaveError, Saved, SceneWriter, short_name};
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 
-use super::{Context, Facts, Material, Scatter, SurfaceHit};
+use crate::material::{Context, Facts, Material, Scatter, SurfaceHit};
 use crate::{Path, SpectralTable};
 
 /// A surface of uniform radiance: the same from every point, in every direction, on both sides. It reflects nothing.
@@ -36,8 +36,7 @@ impl Material for UniformSurfaceEmitter {
     }
 
     fn facts(&self) -> Facts {
-        let name = short_name(std::any::type_name::<Self>());
-        Facts { importance: self.importance, emits: true, ..Facts::named(name) }
+        Facts { importance: self.importance, ..Facts::emitter("UniformSurfaceEmitter") }
     }
 
     fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {

@@ -1,7 +1,7 @@
-use raysect_core::save::{SaveError, Saved, SceneWriter, short_name};
+use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_math::MathError;
 
-use super::{Context, Facts, Material, Scatter, SurfaceHit};
+use crate::material::{Context, Facts, Material, Scatter, SurfaceHit};
 use crate::{OpticalError, Path, SpectralTable, colour};
 
 /// A surface that emits in a pattern of cubes of two radiances, fixed to the space of the shape.
@@ -65,8 +65,7 @@ impl Material for Checkerboard {
     }
 
     fn facts(&self) -> Facts {
-        let name = short_name(std::any::type_name::<Self>());
-        Facts { importance: self.importance, emits: true, ..Facts::named(name) }
+        Facts { importance: self.importance, ..Facts::emitter("Checkerboard") }
     }
 
     fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
