@@ -1,5 +1,6 @@
 //! The contract of [`Bsdf`] as code, for our surfaces and for users' own.
 
+use std::cell::RefCell;
 use std::f64::consts::TAU;
 
 use raysect_math::sampling::{sphere, uniforms};
@@ -209,10 +210,10 @@ impl Judge<'_> {
             let values = self.evaluate(incoming, outgoing, at)?;
             sampled.iter_mut().zip(values).for_each(|(s, f)| s.add(f * share));
         }
-        let mut answer = Vec::new();
+        let (mut answer, room) = (Vec::new(), RefCell::new(vec![0.0; at.slice.bins]));
         for (bin, sampled) in sampled.into_iter().enumerate() {
             let share = |outgoing: Vector3D| {
-                let mut out = vec![0.0; at.slice.bins];
+                let mut out = room.borrow_mut();
                 self.bsdf.evaluate(incoming, outgoing, at, &mut out);
                 out[bin] * freed(outgoing, at)
             };

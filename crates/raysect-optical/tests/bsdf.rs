@@ -6,8 +6,8 @@ use raysect_math::{Rng, Vector3D};
 use raysect_optical::testing::{BsdfTest, check_bsdf};
 use raysect_optical::{Bsdf, Context, Lambert, Masking, RoughConductor, RoughDielectric, Slice, Slicing};
 
-fn slice() -> Slice {
-    Slicing::new(500.0, 600.0, 2, 1).unwrap().slices().remove(0)
+fn slice(bins: usize) -> Slice {
+    Slicing::new(500.0, 600.0, bins, 1).unwrap().slices().remove(0)
 }
 
 /// A direction at an angle [deg] to the normal.
@@ -17,7 +17,7 @@ fn at_angle(degrees: f64) -> Vector3D {
 }
 
 fn judge(bsdf: &dyn Bsdf, degrees: f64, indices: (f64, f64)) -> Result<Vec<f64>, String> {
-    let slice = slice();
+    let slice = slice(1);
     let at = Context { slice: &slice, index_in: indices.0, index_out: indices.1, wavelength: 550.0 };
     check_bsdf(bsdf, &BsdfTest { at, incoming: at_angle(degrees), reciprocal: true, seed: 7 })
 }
@@ -26,6 +26,15 @@ fn judge(bsdf: &dyn Bsdf, degrees: f64, indices: (f64, f64)) -> Result<Vec<f64>,
 #[track_caller]
 fn albedo(bsdf: &dyn Bsdf, degrees: f64, indices: (f64, f64)) -> f64 {
     judge(bsdf, degrees, indices).unwrap_or_else(|what| panic!("{degrees} deg, {indices:?}: {what}"))[0]
+}
+
+#[test]
+fn every_bin_has_its_own_albedo() {
+    let slice = slice(2);
+    let at = Context { slice: &slice, index_in: 1.0, index_out: 1.0, wavelength: 550.0 };
+    let test = BsdfTest { at, incoming: at_angle(30.0), reciprocal: true, seed: 3 };
+    let found = check_bsdf(&Lambert::new(|wavelength: f64| wavelength / 1000.0), &test).unwrap();
+    assert!((found[0] - 0.525).abs() < 1e-6 && (found[1] - 0.575).abs() < 1e-6, "{found:?}");
 }
 
 #[test]
