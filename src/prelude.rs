@@ -29,7 +29,7 @@ pub use crate::optical::{
     Material, Materials, NullMaterial, NumericallyIntegratedSf, Path, PathSettings, PerfectReflectingSurface,
     ProfileVolume, Ray, Rayleigh, RoughConductor, RoughDielectric, Roughen, Scatter, Sellmeier,
     SpectralFunction, SpectralTable, Spectrum, SurfaceHit, TopHat, UniformSurfaceEmitter, UniformVolume,
-    UnitySurfaceEmitter, WavelengthUnit, WithMaterial, World,
+    UnitySurfaceEmitter, VolumeTransform, WavelengthUnit, WithMaterial, World,
 };
 pub use crate::primitive::{
     BiConcave, BiConvex, Cone, Cuboid, Cylinder, Intersect, Meniscus, Mesh, MeshData, Parabola, Place,

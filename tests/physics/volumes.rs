@@ -1,12 +1,14 @@
 //! Volumes: line integrals through structure, scattering, and dispersion.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use raysect::core::Node;
-use raysect::math::{Point3D, Rng, Statistics, StreamKey, Vector3D};
+use raysect::math::{Point3D, Rng, Statistics, StreamKey, Vector3D, translate};
 use raysect::optical::{
-    Context, Dispersion, HenyeyGreenstein, InhomogeneousVolumeEmitter, LightSampling, Optics, Path,
-    PathSettings, ProfileVolume, Ray, Rayleigh, Sellmeier, Slicing, UniformVolume, WithMaterial, World,
+    Add, Blend, Context, Dispersion, HenyeyGreenstein, InhomogeneousVolumeEmitter, LightSampling, Optics,
+    Path, PathSettings, ProfileVolume, Ray, Rayleigh, Sellmeier, Slicing, UniformVolume, VolumeTransform,
+    WithMaterial, World,
 };
 use raysect::primitive::{Cuboid, Sphere};
 
@@ -254,4 +256,54 @@ fn bins_that_are_dispersed_together_are_right_each() {
         let error = together.error[bin].hypot(alone.error[0]);
         assert!((a - b).abs() <= 4.0 * error, "bin {bin}: {a} and {b} ± {error}");
     }
+}
+
+/// A sheet across the z axis of an emission of 1 in 0.4 … 0.6 m.
+fn slab()
+-> InhomogeneousVolumeEmitter<impl Fn(Point3D, Vector3D, Context<'_>, &mut [f64]) + Send + Sync + 'static> {
+    InhomogeneousVolumeEmitter::length_scale(0.2, |p, _, _, bins| {
+        bins.iter_mut().for_each(|b| *b += f64::from((p.z - 0.5).abs() < 0.1));
+    })
+    .unwrap()
+}
+
+#[test]
+fn volumes_of_sums_and_blends_are_solved_together() {
+    let (absorber, warm) = (UniformVolume::new().absorption(2.0), UniformVolume::emitter(3.0));
+    let sum = Add::new(Arc::new(slab()), Arc::new(absorber.clone()));
+    // ∫ exp(−2 s) over 0.4 … 0.6 m.
+    let expected = ((-0.8f64).exp() - (-1.2f64).exp()) / 2.0;
+    let found = read(&sheet_box(sum), 1, 1).mean();
+    assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+    let blend = Blend::new(Arc::new(absorber), Arc::new(warm), 0.25).unwrap();
+    let expected = 0.75 / 1.5 * (1.0 - (-1.5f64).exp());
+    let found = read(&sheet_box(blend), 1, 1).mean();
+    assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+}
+
+#[test]
+fn a_volume_moves_within_its_shape() {
+    let sum = |moved: f64| {
+        let absorber = Arc::new(UniformVolume::new().absorption(2.0));
+        let slab = VolumeTransform::new(Arc::new(slab()), translate(0.0, 0.0, moved)).unwrap();
+        read(&sheet_box(Add::new(Arc::new(slab), absorber)), 1, 1).mean()
+    };
+    let expected = |from: f64| ((-2.0 * from).exp() - (-2.0 * (from + 0.2)).exp()) / 2.0;
+    assert!((sum(0.0) / expected(0.4) - 1.0).abs() < 1e-6);
+    assert!((sum(-0.3) / expected(0.1) - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn lengths_are_those_of_the_world() {
+    // A box that is stretched four times along the ray holds 4 m, a fifth of it emitting.
+    let mut world = World::new();
+    let node = cuboid([-0.5, -0.5, 0.0], [0.5, 0.5, 1.0]).material(slab());
+    let stretch = raysect::math::AffineMatrix3D::from_rows([
+        [1.0, 0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0, 0.0],
+        [0.0, 0.0, 4.0, 0.0],
+        [0.0, 0.0, 0.0, 1.0],
+    ]);
+    world.add(node.transform(stretch.unwrap())).unwrap();
+    assert!((read(&world, 1, 1).mean() / 0.8 - 1.0).abs() < 1e-6);
 }

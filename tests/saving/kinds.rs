@@ -55,6 +55,14 @@ fn materials() -> Vec<Optics> {
     let mut all = vec![
         Optics::new(AbsorbingSurface),
         Optics::new(NullMaterial),
+        Optics::new(UniformVolume::emitter(table.clone()).absorption(0.3).importance(0.2)),
+        Optics::new(
+            VolumeTransform::new(
+                Arc::new(UniformVolume::emitter(0.1)),
+                rotate_x(30.0) * translate(0.1, 0.2, 1.0 / 3.0),
+            )
+            .unwrap(),
+        ),
         Optics::new(PerfectReflectingSurface),
         Optics::new(Lambert::new(table.clone())),
         Optics::new(UniformSurfaceEmitter::new(table.clone(), 1.5).importance(3.0)),

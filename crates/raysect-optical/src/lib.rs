@@ -105,7 +105,7 @@ pub use material::{
     InhomogeneousVolumeEmitter, Lambert, Masking, Material, Medium, MediumPoint, NullMaterial,
     PerfectReflectingSurface, PhaseFunction, ProfileVolume, Rayleigh, Refraction, RoughConductor,
     RoughDielectric, Roughen, Scatter, Structure, SurfaceHit, UniformSurfaceEmitter, UniformVolume,
-    UnitySurfaceEmitter,
+    UnitySurfaceEmitter, VolumeTransform,
 };
 pub use path::{Dispersion, LEDGER_NUMBERS, Ledger, LightSampling, Path, PathSettings};
 pub use ray::{Ray, SampledSpectrum};

@@ -8,7 +8,7 @@ use crate::{
     AbsorbingSurface, Add, BlackBody, Blend, Checkerboard, Conductor, DebugLight, Dielectric, GaussianLine,
     InterpolatedSf, Lambert, Material, NullMaterial, Optics, PerfectReflectingSurface, RoughConductor,
     RoughDielectric, Roughen, Sellmeier, SpectralFunction, SpectralTable, Spectrum, TopHat,
-    UniformSurfaceEmitter, UniformVolume, UnitySurfaceEmitter,
+    UniformSurfaceEmitter, UniformVolume, UnitySurfaceEmitter, VolumeTransform,
 };
 
 /// A world of shapes with materials as a file had it, and what was kept with it.
@@ -194,4 +194,7 @@ fn modifiers(registry: &mut Registry) {
     });
     registry
         .material("Roughen", |entry| Ok(Roughen::new(entry.material("base")?, entry.number("roughness")?)?));
+    registry.material("VolumeTransform", |entry| {
+        Ok(VolumeTransform::new(entry.material("base")?, entry.transform("transform")?)?)
+    });
 }

@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use super::table;
-use crate::{InterpolatedSf, OpticalError, WavelengthUnit};
+use crate::{Conductor, InterpolatedSf, OpticalError, RoughConductor, WavelengthUnit};
 
 /// The files of metals, by name.
 macro_rules! metals {
@@ -35,6 +35,26 @@ pub fn metal_index(name: &str) -> Result<(InterpolatedSf, InterpolatedSf), Optic
         Some((_, text)) => read(Path::new(name), text, WavelengthUnit::Nanometre),
         None => Err(OpticalError::unknown("metal", name, metal_list())),
     }
+}
+
+/// A smooth surface of a metal, by its name.
+///
+/// # Errors
+/// As [`metal_index`].
+#[doc(alias("Aluminium", "Copper", "Gold", "Silver", "Titanium", "Tungsten"))]
+pub fn metal(name: &str) -> Result<Conductor, OpticalError> {
+    let (n, k) = metal_index(name)?;
+    Ok(Conductor::new(n, k))
+}
+
+/// A rough surface of a metal, by its name and its roughness, 0 … 1 without 0.
+///
+/// # Errors
+/// As [`metal_index`] and [`RoughConductor::new`].
+#[doc(alias("RoughAluminium", "RoughCopper", "RoughGold", "RoughSilver", "RoughTitanium", "RoughTungsten"))]
+pub fn rough_metal(name: &str, roughness: f64) -> Result<RoughConductor, OpticalError> {
+    let (n, k) = metal_index(name)?;
+    RoughConductor::new(n, k, roughness)
 }
 
 /// The names that [`metal_index`] knows.

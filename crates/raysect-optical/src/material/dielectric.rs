@@ -1,6 +1,6 @@
 use raysect_core::save::{SaveError, Saved, SceneWriter};
 
-use super::{Coefficients, Facts, Material, Medium, MediumPoint, Refraction, Scatter, SurfaceHit};
+use super::{Coefficients, Context, Facts, Material, Medium, MediumPoint, Refraction, Scatter, SurfaceHit};
 use crate::{OpticalError, Path, Slice, SpectralFunction, SpectralTable};
 
 /// A smooth transparent solid: Fresnel reflection and refraction at its surface, absorption inside.
@@ -194,6 +194,10 @@ impl Medium for Dielectric {
     fn coefficients(&self, at: &MediumPoint<'_>, out: &mut Coefficients<'_>) {
         let table = at.at.slice.table(&self.attenuation);
         out.attenuation.iter_mut().zip(table).for_each(|(a, b)| *a += b);
+    }
+
+    fn majorant(&self, at: Context<'_>) -> f64 {
+        at.slice.table(&self.attenuation).iter().fold(0.0, |a: f64, &b| a.max(b))
     }
 }
 

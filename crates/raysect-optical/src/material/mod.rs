@@ -33,7 +33,7 @@ pub use medium::{Coefficients, Medium, MediumPoint, Refraction, Structure};
 pub(crate) use microfacet::MASKINGS;
 pub use microfacet::{Masking, RoughConductor, RoughDielectric};
 pub use mirror::PerfectReflectingSurface;
-pub use modifier::{Add, Blend, Roughen};
+pub use modifier::{Add, Blend, Roughen, VolumeTransform};
 pub use null::NullMaterial;
 pub use phase_function::{HenyeyGreenstein, PhaseFunction, Rayleigh};
 pub use surface_hit::SurfaceHit;

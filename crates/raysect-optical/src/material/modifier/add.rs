@@ -27,7 +27,7 @@ pub struct Add(Parts);
 impl Add {
     /// Of two materials, which may be sums themselves.
     pub fn new(first: Arc<dyn Material>, second: Arc<dyn Material>) -> Self {
-        Self(Parts::new(first, second))
+        Self(Parts::new(first, second, [1.0, 1.0]))
     }
 
     /// With only the surfaces added; the volume is that of the first one.

@@ -37,7 +37,7 @@ impl Blend {
         ratio: f64,
     ) -> Result<Self, OpticalError> {
         MathError::check(ratio > 0.0 && ratio < 1.0, ratio, "ratio of a blend", "", "between 0 and 1")?;
-        Ok(Self { parts: Parts::new(first, second), ratio })
+        Ok(Self { parts: Parts::new(first, second, [1.0 - ratio, ratio]), ratio })
     }
 
     /// With only the surfaces blended; the volume is that of the first one.

@@ -3,9 +3,12 @@
 mod add;
 mod blend;
 mod buffers;
+mod mixture;
 mod parts;
 mod roughen;
+mod volume_transform;
 
 pub use add::Add;
 pub use blend::Blend;
 pub use roughen::Roughen;
+pub use volume_transform::VolumeTransform;

@@ -21,6 +21,8 @@ enum Scope {
 pub(super) struct Parts {
     pub(super) first: Arc<dyn Material>,
     pub(super) second: Arc<dyn Material>,
+    /// How much of each counts.
+    pub(super) shares: [f64; 2],
     scope: Scope,
     /// Asked for once: names are strings.
     known: [Known; 2],
@@ -42,9 +44,9 @@ impl Known {
 }
 
 impl Parts {
-    pub(super) fn new(first: Arc<dyn Material>, second: Arc<dyn Material>) -> Self {
+    pub(super) fn new(first: Arc<dyn Material>, second: Arc<dyn Material>, shares: [f64; 2]) -> Self {
         let known = [Known::of(&*first), Known::of(&*second)];
-        Self { first, second, scope: Scope::Both, known }
+        Self { first, second, shares, scope: Scope::Both, known }
     }
 
     fn restricted(mut self, to: Scope) -> Result<Self, OpticalError> {
@@ -90,11 +92,14 @@ impl Parts {
         true
     }
 
-    /// What fills the volume: the medium of the first part that has one.
+    /// What fills the volume: the media of both parts, with their shares; one that is alone counts whole.
     pub(super) fn medium(&self) -> Option<&dyn Medium> {
         match self.scope {
             Scope::Surface => self.first.medium(),
-            Scope::Both | Scope::Volume => self.first.medium().or_else(|| self.second.medium()),
+            Scope::Both | Scope::Volume => match (self.first.medium(), self.second.medium()) {
+                (Some(_), Some(_)) => Some(self),
+                (first, second) => first.or(second),
+            },
         }
     }
 
@@ -119,7 +124,8 @@ impl Parts {
 
     pub(super) fn check(&self, slice: &Slice) -> Result<(), OpticalError> {
         self.first.check(slice)?;
-        self.second.check(slice)
+        self.second.check(slice)?;
+        if self.scope == Scope::Surface { Ok(()) } else { self.check_media() }
     }
 
     pub(super) fn save(&self, saved: Saved, writer: &mut SceneWriter) -> Result<Saved, SaveError> {

@@ -62,4 +62,8 @@ impl<F: Fn(Vector3D, Context<'_>, &mut [f64]) + Send + Sync + 'static> Medium
     fn coefficients(&self, at: &MediumPoint<'_>, out: &mut Coefficients<'_>) {
         (self.emission)(at.local_direction(), at.at, out.emission);
     }
+
+    fn majorant(&self, _: Context<'_>) -> f64 {
+        0.0
+    }
 }

@@ -8,7 +8,7 @@ use super::volume_facts;
 use crate::material::{
     Coefficients, Facts, Material, Medium, MediumPoint, PhaseFunction, Scatter, SurfaceHit,
 };
-use crate::{OpticalError, Path, Slice, SpectralTable};
+use crate::{Context, OpticalError, Path, Slice, SpectralTable};
 
 /// A volume of constant emission, absorption and scattering, behind a surface that lets everything pass.
 ///
@@ -161,5 +161,9 @@ impl Medium for UniformVolume {
 
     fn phase_function(&self) -> Option<&dyn PhaseFunction> {
         self.scattering.as_ref().map(|(_, phase)| &**phase)
+    }
+
+    fn majorant(&self, at: Context<'_>) -> f64 {
+        self.largest_attenuation(at.slice)
     }
 }
