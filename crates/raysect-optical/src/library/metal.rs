@@ -24,7 +24,7 @@ const METALS: &[(&str, &str)] = metals![
 /// use raysect_optical::SpectralFunction;
 /// use raysect_optical::library::metal_index;
 /// let (n, k) = metal_index("Gold")?;
-/// assert!((n.evaluate(500.0) - 0.865).abs() < 1e-3 && (k.evaluate(500.0) - 1.849).abs() < 1e-3);
+/// assert!((n.evaluate(500.0) - 0.8654).abs() < 1e-4 && (k.evaluate(500.0) - 1.8504).abs() < 1e-4);
 /// # Ok::<(), raysect_optical::OpticalError>(())
 /// ```
 ///
