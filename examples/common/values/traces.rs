@@ -1,6 +1,6 @@
 //! Spectra along single rays through described scenes in which nothing is left to chance.
 
-use raysect::optical::library::{d65_white, schott};
+use raysect::optical::library::{d65_white, metal_index, schott};
 use raysect::prelude::*;
 use serde_json::Value;
 
@@ -72,9 +72,74 @@ fn world(kind: &str, scene: &Value) -> Result<Option<World>, String> {
             world.add(slab.material(glass.transmission_only(only))).map_err(wrong)?;
             add_emitter(&mut world, scene)?;
         }
+        "mirror-box" => {
+            let name = field(scene, "metal", text)?;
+            let (n, k) = metal_index(&capitalised(&name)).map_err(wrong)?;
+            // As recorded: by the law for a large index.
+            let metal = Conductor::new(n, k).fresnel(FresnelLaw::LargeIndex);
+            world.add(field(scene, "box", cuboid)?.material(metal)).map_err(wrong)?;
+            add_emitter(&mut world, scene)?;
+        }
+        "mirror-table" => {
+            let wavelengths = numbers_of(scene, "wavelengths")?;
+            let table =
+                |key: &str| InterpolatedSf::new(wavelengths.clone(), numbers_of(scene, key)?).map_err(wrong);
+            let law = match field(scene, "fresnel", text)?.as_str() {
+                "raysect-approximation" => FresnelLaw::LargeIndex,
+                "exact" => FresnelLaw::Exact,
+                other => return Err(format!("no law of reflection is known as '{other}'")),
+            };
+            let metal = Conductor::new(table("n")?, table("k")?).fresnel(law);
+            world.add(field(scene, "box", cuboid)?.material(metal)).map_err(wrong)?;
+            add_emitter(&mut world, scene)?;
+        }
+        "volume-emitter" => {
+            let (emission, scale) = (field(scene, "emission", spectrum)?, field(scene, "scale", number)?);
+            let scaled = move |wavelength: f64| scale * emission.evaluate(wavelength);
+            add_volume(&mut world, scene, UniformVolume::emitter(scaled))?;
+        }
+        "unity-volume" => add_volume(&mut world, scene, UniformVolume::emitter(1.0))?,
+        "debug-light" => {
+            let [x, y, z] = field(scene, "light_direction", numbers::<3>)?;
+            let light = DebugLight::new(Vector3D::new(x, y, z)).map_err(wrong)?;
+            let light = light.intensity(field(scene, "intensity", number)?).map_err(wrong)?;
+            let sphere = Sphere::new(field(scene, "sphere_radius", number)?).map_err(wrong)?;
+            world.add(sphere.material(light)).map_err(wrong)?;
+        }
         _ => return Ok(None),
     }
     Ok(Some(world))
+}
+
+/// The shape of a recorded volume, by its name, filled and put in its place.
+fn add_volume(world: &mut World, scene: &Value, volume: UniformVolume) -> Result<(), String> {
+    let place = field(scene, "transform", |v| {
+        let m = numbers::<16>(v)?;
+        AffineMatrix3D::from_row_major(m).map_err(wrong)
+    })?;
+    let node = match field(scene, "shape", text)?.as_str() {
+        "sphere" => Sphere::new(1.0).map_err(wrong)?.material(volume),
+        "box" => Cuboid::new(Point3D::new(-1.0, -0.7, -0.5), Point3D::new(0.8, 0.9, 1.0))
+            .map_err(wrong)?
+            .material(volume),
+        "cylinder" => Cylinder::new(0.8, 1.5).map_err(wrong)?.material(volume),
+        "cone" => Cone::new(0.9, 1.4).map_err(wrong)?.material(volume),
+        "subtract" => {
+            let hole = Cylinder::new(0.4, 4.0).map_err(wrong)?.placed(translate(0.0, 0.0, -2.0));
+            Subtract::new(Sphere::new(1.0).map_err(wrong)?, hole).map_err(wrong)?.material(volume)
+        }
+        other => return Err(format!("no shape is known as '{other}'")),
+    };
+    world.add(node.transform(place)).map_err(wrong)?;
+    Ok(())
+}
+
+fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters
+        .next()
+        .map(|first| first.to_uppercase().collect::<String>() + letters.as_str())
+        .unwrap_or_default()
 }
 
 /// The sphere that shines on the rest from all around.
