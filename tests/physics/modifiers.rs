@@ -31,7 +31,7 @@ fn blend(first: Shared, second: Shared, ratio: f64) -> Shared {
 
 fn furnace(material: Shared, sampling: LightSampling) -> Reading {
     let world = world([dome(), ball([0.0; 3], 1.0, material)]);
-    Probe::new(250_000).seed(81).light(sampling).along(&world, [0.3, 0.1, -5.0], [0.0, 0.0, 1.0])
+    Probe::new(100_000).seed(81).light(sampling).along(&world, [0.3, 0.1, -5.0], [0.0, 0.0, 1.0])
 }
 
 #[test]
@@ -76,7 +76,11 @@ fn same(case: String, reading: &Reading, (mean, error): (f64, f64)) {
 #[test]
 fn sums_and_blends_are_what_separate_pictures_are_together() {
     for sampling in EVERY {
-        let count = if sampling == LightSampling::Off { 600_000 } else { 300_000 };
+        let count = match sampling {
+            LightSampling::Lights => 40_000,
+            LightSampling::BoundingSpheres => 100_000,
+            LightSampling::Off => 250_000,
+        };
         let (one, two) = (lit(matt(0.7), sampling, count), lit(metal(), sampling, count));
         let mixed = lit(blend(matt(0.7), metal(), 0.3), sampling, 2 * count);
         same(format!("blend {sampling:?}"), &mixed, together(&one, 0.7, &two, 0.3));
@@ -96,7 +100,7 @@ fn a_blend_with_a_lamp_lights_as_its_share_of_it() {
     for sampling in [LightSampling::Lights, LightSampling::BoundingSpheres] {
         let shining = blend(Arc::new(lamp()), Arc::new(AbsorbingSurface), 0.25);
         let world = world([plate(Lambert::new(0.7)), ball([0.0, 0.0, 3.0], 1.0, shining)]);
-        let reading = Probe::new(200_000).seed(83).light(sampling).aim(0.8).along(&world, EYE, VIEW);
+        let reading = Probe::new(60_000).seed(83).light(sampling).aim(0.8).along(&world, EYE, VIEW);
         accept(format!("a lamp at three quarters {sampling:?}"), 0.75 * 0.7 / 9.0, Demand::Mean, &reading);
     }
 }
@@ -104,15 +108,15 @@ fn a_blend_with_a_lamp_lights_as_its_share_of_it() {
 #[test]
 fn every_search_for_light_reads_the_same_off_a_roughened_surface() {
     let rough = || -> Shared { Arc::new(Roughen::new(matt(0.7), 0.4).unwrap()) };
-    let off = lit(rough(), LightSampling::Off, 400_000);
+    let off = lit(rough(), LightSampling::Off, 200_000);
     for sampling in [LightSampling::Lights, LightSampling::BoundingSpheres] {
-        agree(format!("roughened {sampling:?} and Off"), &lit(rough(), sampling, 300_000), &off);
+        agree(format!("roughened {sampling:?} and Off"), &lit(rough(), sampling, 100_000), &off);
     }
     let none: Shared = Arc::new(Roughen::new(matt(0.7), 0.0).unwrap());
     agree(
         "not roughened",
-        &lit(none, LightSampling::Lights, 300_000),
-        &lit(matt(0.7), LightSampling::Lights, 300_000),
+        &lit(none, LightSampling::Lights, 50_000),
+        &lit(matt(0.7), LightSampling::Lights, 50_000),
     );
 }
 

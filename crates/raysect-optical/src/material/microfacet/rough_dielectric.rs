@@ -21,7 +21,7 @@ pub struct RoughDielectric {
 
 impl RoughDielectric {
     /// Of a refractive index and a transmission per metre (0 … 1), as functions of the wavelength, and a roughness
-    /// above 0, at most 1: the parameter α of the distribution.
+    /// above 0, at most 1: the parameter α of the distribution. No path is aimed at it.
     ///
     /// # Errors
     /// [`OpticalError::Math`] for another roughness; a range in which the index is not positive is refused when it
@@ -31,10 +31,12 @@ impl RoughDielectric {
         transmission: impl Into<SpectralTable>,
         roughness: f64,
     ) -> Result<Self, OpticalError> {
-        Self::of(Dielectric::new(index, transmission)?.named("RoughDielectric"), roughness)
+        let smooth = Dielectric::new(index, transmission)?.named("RoughDielectric").importance(0.0);
+        Self::of(smooth, roughness)
     }
 
-    /// A dielectric with its surface roughened.
+    /// A dielectric with its surface roughened; index outside, priority and importance are its own. Importance above 0
+    /// makes paths noisier that scatter at the rough surface itself, since a share of them is aimed back into the solid.
     ///
     /// ```
     /// use raysect_optical::{RoughDielectric, library::schott};
