@@ -216,7 +216,7 @@ fn prism_scene() -> World {
     let flint = Sellmeier::new([1.73759695, 0.313747346, 1.89878101], [0.013188707, 0.0623068142, 155.23629]);
     let glass = raysect::optical::Dielectric::new(flint.unwrap(), 1.0).unwrap();
     let node: Node<Optics> = Sphere::new(1.0).unwrap().material(glass);
-    let lamp = Cuboid::new(Point3D::new(-0.5, -1.4, 3.0), Point3D::new(0.5, -1.016, 3.1)).unwrap();
+    let lamp = Cuboid::new(Point3D::new(-0.5, -1.4, 3.0), Point3D::new(0.5, -1.016, 3.0)).unwrap();
     world([node, lamp.material(raysect::optical::UniformSurfaceEmitter::new(1.0, 1.0))])
 }
 

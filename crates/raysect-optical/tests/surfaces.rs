@@ -130,7 +130,9 @@ fn impossible_parameters_are_refused() {
 fn modifiers_pass_facts_through() {
     let lambert: Arc<dyn Material> = Arc::new(Lambert::default());
     let lamp: Arc<dyn Material> = Arc::new(UniformSurfaceEmitter::new(1.0, 1.0).importance(3.0));
-    let glass: Arc<dyn Material> = Arc::new(Dielectric::new(1.5, 1.0).unwrap().importance(0.5));
+    assert!(!Dielectric::new(1.5, 1.0).unwrap().facts().disperses);
+    let index = |wavelength: f64| 1.5 + 5.0 / wavelength;
+    let glass: Arc<dyn Material> = Arc::new(Dielectric::new(index, 1.0).unwrap().importance(0.5));
     let null: Arc<dyn Material> = Arc::new(NullMaterial);
     let facts = Roughen::new(Arc::new(Add::new(lambert.clone(), lamp.clone())), 0.1).unwrap().facts();
     assert!(facts.emits && facts.importance == 3.0 && !facts.absorbs && !facts.transparent);

@@ -38,7 +38,9 @@ fn compare_case(
     let [x, y, z] = field(case, "origin", numbers::<3>)?;
     let [dx, dy, dz] = field(case, "direction", numbers::<3>)?;
     let direction = Vector3D::new(dx, dy, dz).normalise().map_err(|e| format!("direction: {e}"))?;
-    let ray = Ray::new(Point3D::new(x, y, z), direction).spectrum(min, max, bins);
+    // As recorded: one index for all bins.
+    let settings = PathSettings::default().dispersion(Dispersion::Mean);
+    let ray = Ray::new(Point3D::new(x, y, z), direction).spectrum(min, max, bins).settings(settings);
     let ours = ray.trace(&world).map_err(wrong)?.samples().to_vec();
     let mut finding = section.finding(format!("{position} {kind}"));
     let tolerance = field(section.tolerance, &kind, number)?;
