@@ -53,11 +53,11 @@ fn main() -> raysect::Result<()> {
         let node = if roughness == 0.0 {
             ball.material(glass)
         } else {
-            ball.material(RoughDielectric::of(glass, roughness)?)
+            ball.material(RoughDielectric::of(glass.importance(0.0), roughness)?)
         };
         world.add(node.transform(place(METALS.len(), row)).name(format!("glass {roughness}")))?;
     }
-    arguments.shot.take("metals", &world, shot::viewpoint(11.0, 0.8, 24.0), 38.0)
+    arguments.shot.take("metals", &world, shot::viewpoint(11.0, 0.6, 24.0), 42.0)
 }
 
 fn place(column: usize, row: usize) -> AffineMatrix3D {

@@ -152,6 +152,23 @@ mod tests {
     }
 
     #[test]
+    fn normals_are_unit_vectors_for_the_first_and_the_last_uniforms_and_at_grazing_incidence() {
+        let ends = [0.5f64.powi(53), 0.25, 1.0 - 0.5f64.powi(53)];
+        for roughness in [1e-6, 0.3, 1.0] {
+            let facets = Ggx::new(roughness).unwrap();
+            for z in [0.0, 1e-300, 1e-9, 0.5, 1.0] {
+                let v = Vector3D::new(0.0, f64::sqrt((1.0 - z) * (1.0 + z)), z);
+                for (a, b) in ends.into_iter().flat_map(|a| ends.map(|b| (a, b))) {
+                    let m = facets.sample_visible(v, [a, b]);
+                    assert!((m.length() - 1.0).abs() < 1e-12 && m.z > 0.0, "{roughness} {z} {a} {b}: {m:?}");
+                    assert!(m.dot(v) > -1e-12, "{roughness} {z} {a} {b}: {m:?}");
+                    assert!(facets.visible(v).is_finite() && facets.distribution(m).is_finite());
+                }
+            }
+        }
+    }
+
+    #[test]
     fn roughness_is_above_zero_and_at_most_one() {
         assert!(Ggx::new(0.0).is_err() && Ggx::new(1.0 + 1e-9).is_err() && Ggx::new(f64::NAN).is_err());
         assert!(Ggx::new(1e-6).unwrap_or_else(|e| panic!("{e}")).distribution(Vector3D::Z).is_finite());
