@@ -291,9 +291,20 @@ impl Primitive for Mesh {
             // Of a sheet that is left by its edge the neighbour answers.
             None => None,
         };
-        scratch.give_back(near);
         let next = next.map(|c| Crossing { distance: c.distance.max(0.0), ..c });
-        next.filter(|c| c.distance <= max).or(beyond)
+        let next = next.filter(|c| c.distance <= max).or(beyond);
+        // What has gone in comes out before it goes in again. If the line of the rounded origin passes by an edge instead,
+        // inside and outside meet there, and the way ends where it begins.
+        let skipped = closed && next.is_some_and(|c| c.exiting != left.inward);
+        let passed_by = || {
+            let others = near.iter().filter(|c| c.exiting == left.inward);
+            let feature =
+                others.min_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs())).map(|c| c.feature);
+            Crossing { distance: 0.0, feature: feature.unwrap_or(left.feature), exiting: left.inward }
+        };
+        let next = if skipped { Some(passed_by()) } else { next };
+        scratch.give_back(near);
+        next
     }
 
     fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {

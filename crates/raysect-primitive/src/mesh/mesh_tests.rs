@@ -161,3 +161,45 @@ fn far_origins_reach_the_mesh_exactly() {
         assert!(point.distance_to(Point3D::new(0.125, 0.25, -0.5)) < 1e-15, "{point:?}");
     }
 }
+
+/// A prism over the letter L: from an edge of its foot a line can leave the foot and meet the other arm.
+fn letter() -> Mesh {
+    let outline = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.4], [0.4, 0.4], [0.4, 1.0], [0.0, 1.0]];
+    let corners = [0.0, 0.5].into_iter().flat_map(|z| outline.map(|[x, y]| [x, y, z]));
+    let cap = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]];
+    let walls = (0..6u32).flat_map(|i| {
+        let j = (i + 1) % 6;
+        [[i, j, j + 6], [i, j + 6, i + 6]]
+    });
+    let triangles =
+        cap.map(|[a, b, c]| [a, c, b]).into_iter().chain(cap.map(|t| t.map(|i| i + 6))).chain(walls);
+    Mesh::new(MeshData::new(corners, triangles).unwrap()).unwrap()
+}
+
+#[test]
+fn what_enters_at_an_edge_comes_out_at_once_or_goes_through() {
+    let mut world = raysect_core::World::<()>::new();
+    world.add(letter()).unwrap();
+    let scene = world.scene().unwrap();
+    let mut scratch = Scratch::default();
+    let up = Ray::new(Point3D::new(0.7, 0.3, -1.0), Vector3D::Z);
+    let hit = scene.hit(&up, None, &mut scratch).unwrap();
+    let floor = scene.finish(&up, &hit);
+    // At the edge of the floor and a wall, and as far beside it as rounding may put a point.
+    for y in [0.4 - 1e-15, 0.4f64.next_down(), 0.4, 0.4f64.next_up(), 0.4 + 1e-15] {
+        let start = raysect_core::SurfacePoint { point: Point3D::new(0.7, y, 0.0), ..floor };
+        for (towards, expected) in [
+            // Into the floor's inside and out of the wall's: out at once, although the other arm lies ahead.
+            (Vector3D::new(-0.6, 0.5, 0.6), 0.0),
+            // Into the inside of both: to the far side of the foot.
+            (Vector3D::new(0.0, -0.8, 0.6), 0.5),
+        ] {
+            let towards = towards.normalise_unchecked();
+            let leaving = raysect_core::Leaving::new(&start, Vector3D::Z, towards, None);
+            let ray = Ray::new(start.point, towards);
+            let next = scene.hit(&ray, Some(&leaving), &mut scratch).unwrap();
+            assert!(next.crossing.exiting, "{y}, {towards:?}: {next:?}");
+            assert!((next.crossing.distance - expected).abs() < 1e-14, "{y}, {towards:?}: {next:?}");
+        }
+    }
+}
