@@ -3,7 +3,7 @@
 use raysect::core::{Node, Ray};
 use raysect::math::{Point3D, Rng, Vector3D};
 use raysect::optical::{
-    Bsdf, Conductor, Context, Lambert, LightSampling, Material, Optics, Path, RoughConductor,
+    Bsdf, Conductor, Context, Dielectric, Lambert, LightSampling, Material, Optics, Path, RoughConductor,
     RoughDielectric, Scatter, SurfaceHit, UniformSurfaceEmitter, WithMaterial,
 };
 
@@ -189,5 +189,25 @@ fn every_search_for_light_reads_the_same_through_rough_glass() {
     let off = look(LightSampling::Off);
     for sampling in [LightSampling::Lights, LightSampling::BoundingSpheres] {
         agree(format!("through rough glass {sampling:?} and Off"), &look(sampling), &off);
+    }
+}
+
+/// A lamp in water under rough glass that lies on it: where the two touch there is one interface, for rays towards
+/// the lamp as for paths.
+#[test]
+fn every_search_for_light_reads_the_same_where_rough_glass_touches_water() {
+    let look = |sampling| {
+        let glass = cuboid([-3.0, -3.0, -0.5], [3.0, 3.0, 0.0]);
+        let water = cuboid([-2.9, -2.9, -2.5], [2.9, 2.9, -0.5]);
+        let world = world([
+            glass.material(RoughDielectric::new(1.5, 1.0, 0.4).unwrap()),
+            water.material(Dielectric::new(1.33, 1.0).unwrap().importance(0.0)),
+            ball([0.0, 0.0, -1.5], 0.5, crate::scenes::lamp()),
+        ]);
+        Probe::new(150_000).seed(76).light(sampling).along(&world, [0.3, 0.2, 1.0], [0.0, 0.0, -1.0])
+    };
+    let off = look(LightSampling::Off);
+    for sampling in [LightSampling::Lights, LightSampling::BoundingSpheres] {
+        agree(format!("rough glass on water {sampling:?} and Off"), &look(sampling), &off);
     }
 }

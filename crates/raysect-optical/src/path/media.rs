@@ -220,13 +220,25 @@ impl<'a> Path<'a> {
     /// Follows the path through a surface and those that coincide with it, into or out of what lies behind.
     pub(super) fn change_medium(&mut self, surface: &SurfacePoint, leaving: &mut Leaving) {
         let mut media = self.media;
-        let mut consistent = self.change_list(&mut media, surface);
+        let consistent = self.pass_into(&mut media, surface, leaving);
+        self.ledger.inconsistencies += u64::from(!consistent);
+        self.media = media;
+    }
+
+    /// Changes a list as a way through the surface of the moment does, and through those that coincide with it;
+    /// `false` if that does not agree with the list.
+    pub(super) fn pass_into(
+        &self,
+        media: &mut MediaList,
+        surface: &SurfacePoint,
+        leaving: &mut Leaving,
+    ) -> bool {
+        let mut consistent = self.change_list(media, surface);
         for &(instance, exiting) in self.coincident.as_slice() {
             consistent &= media.cross(instance, exiting);
             leaving.passed(instance);
         }
-        self.ledger.inconsistencies += u64::from(!consistent);
-        self.media = media;
+        consistent
     }
 
     pub(super) fn change_list(&self, media: &mut MediaList, surface: &SurfacePoint) -> bool {

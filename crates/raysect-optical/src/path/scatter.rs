@@ -121,10 +121,10 @@ impl Path<'_> {
     #[inline]
     fn origin(&self, hit: &SurfaceHit, direction: Vector3D) -> Origin {
         let mut media = self.media;
+        let mut leaving = Leaving::new(&hit.surface, hit.direction, direction, self.leaving.as_ref());
         if self.scene.compiled.any_medium && hit.leads_through(direction) {
-            self.change_list(&mut media, &hit.surface);
+            self.pass_into(&mut media, &hit.surface, &mut leaving);
         }
-        let leaving = Leaving::new(&hit.surface, hit.direction, direction, self.leaving.as_ref());
         Origin { point: hit.surface.point, leaving: Some(leaving), media }
     }
 
