@@ -64,19 +64,12 @@ impl Interpolator1DArray {
     /// Where pieces meet, that of the piece above counts. The end knots belong to the curve, not to what lies beyond.
     #[inline]
     pub fn derivative(&self, x: f64, order: u32) -> f64 {
-        if !self.axis.admits(x) {
-            return f64::NAN;
+        if !self.axis.holds(x) {
+            return self.outside(x, order);
         }
-        let (low, high) = self.domain();
         let cell = self.axis.cell(x);
-        if x < low {
-            return self.beyond(x - low, 0, cell, order);
-        }
-        if x > high {
-            return self.beyond(x - high, self.values.len() - 1, cell, order);
-        }
-        let width = self.axis.width(cell);
-        let t = (x - self.axis.knots()[cell]) / width;
+        let (low, width) = self.axis.extent(cell);
+        let t = (x - low) / width;
         let value = |weights: [f64; 2]| weights[0] * self.values[cell] + weights[1] * self.values[cell + 1];
         let normalised = if self.slopes.is_empty() {
             value(Hermite::line(t, order).values)
@@ -122,21 +115,33 @@ impl Interpolator1DArray {
         if low == high { self.evaluate(low) } else { self.integral(low, high) / (high - low) }
     }
 
+    #[cold]
+    fn outside(&self, x: f64, order: u32) -> f64 {
+        let ((low, high), last) = (self.domain(), self.values.len() - 1);
+        if !self.axis.admits(x) {
+            f64::NAN
+        } else if x < low {
+            self.beyond(x - low, 0, 0, order)
+        } else {
+            self.beyond(x - high, last, last - 1, order)
+        }
+    }
+
     /// The derivative at `distance` (with its sign) from the end knot `end`, next to which lies the end cell `cell`.
     fn beyond(&self, distance: f64, end: usize, cell: usize, order: u32) -> f64 {
         let width = self.axis.width(cell);
         let secant = (self.values[cell + 1] - self.values[cell]) / width;
-        let (slope, curvature) = match self.extrapolation {
+        let (slope, bend) = match self.extrapolation {
             Extrapolation1D::Nearest => return if order == 0 { self.values[end] } else { 0.0 },
             Extrapolation1D::Quadratic if !self.slopes.is_empty() => {
-                (self.slopes[end], (self.slopes[cell + 1] - self.slopes[cell]) / width)
+                (self.slopes[end], self.slopes[cell + 1] - self.slopes[cell])
             }
             Extrapolation1D::Linear | Extrapolation1D::Quadratic => (secant, 0.0),
         };
         match order {
-            0 => self.values[end] + distance * (slope + 0.5 * curvature * distance),
-            1 => slope + curvature * distance,
-            2 => curvature,
+            0 => self.values[end] + distance * (slope + 0.5 * (distance / width) * bend),
+            1 => slope + distance / width * bend,
+            2 => bend / width,
             _ => 0.0,
         }
     }
