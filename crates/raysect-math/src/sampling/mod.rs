@@ -15,6 +15,8 @@
 //! ```
 
 #[cfg(test)]
+mod all_tests;
+#[cfg(test)]
 mod check;
 pub mod cone;
 pub mod disk;
