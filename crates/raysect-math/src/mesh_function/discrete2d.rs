@@ -54,6 +54,7 @@ impl Discrete2DMesh {
     }
 
     /// The same function, with a value outside of the mesh. A clone of it shares mesh and values.
+    #[doc(alias("default_value", "limit"))]
     pub fn with_default(mut self, value: f64) -> Self {
         self.field.default = Some(value);
         self

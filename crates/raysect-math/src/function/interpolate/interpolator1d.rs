@@ -17,6 +17,7 @@ use crate::MathError;
 /// assert_eq!((f.evaluate(5.0), f.evaluate(5.5).is_nan()), (0.0, true));
 /// # Ok::<(), raysect_math::MathError>(())
 /// ```
+#[doc(alias("interpolate", "find_index"))]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interpolator1DArray {
     axis: Axis,
@@ -48,6 +49,7 @@ impl Interpolator1DArray {
     ///
     /// # Errors
     /// [`MathError::OutOfRange`] for a negative or NaN range.
+    #[doc(alias = "extrapolation_range")]
     pub fn extrapolate(mut self, extrapolation: Extrapolation1D, range: f64) -> Result<Self, MathError> {
         self.axis.extend(range)?;
         self.extrapolation = extrapolation;

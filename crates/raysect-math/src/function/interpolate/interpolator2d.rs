@@ -45,6 +45,7 @@ impl Interpolator2DArray {
     ///
     /// # Errors
     /// [`MathError::OutOfRange`] for a negative or NaN range.
+    #[doc(alias = "extrapolation_range")]
     pub fn extrapolate(
         mut self,
         extrapolation: Extrapolation,

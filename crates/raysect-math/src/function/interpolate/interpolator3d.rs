@@ -53,6 +53,7 @@ impl Interpolator3DArray {
     ///
     /// # Errors
     /// [`MathError::OutOfRange`] for a negative or NaN range.
+    #[doc(alias = "extrapolation_range")]
     pub fn extrapolate(
         mut self,
         extrapolation: Extrapolation,
