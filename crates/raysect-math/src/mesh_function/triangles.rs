@@ -88,8 +88,14 @@ impl Triangles {
         for (opposite, weight) in weights.iter_mut().enumerate() {
             let (from, to) = (places[(opposite + 1) % 3], places[(opposite + 2) % 3]);
             let (edge, away) = (from.vector_to(to), from.vector_to(point));
+            let border = -slack * (edge.x.abs() + edge.y.abs());
+            let (left, right) = (edge.x * away.y, edge.y * away.x);
+            // Most of the triangles that do not hold the point are told by a side that rounding cannot turn.
+            if left - right < border - 4.0 * f64::EPSILON * (left.abs() + right.abs()) {
+                return None;
+            }
             let side = difference_of_products(edge.x, away.y, edge.y, away.x);
-            if side < -slack * (edge.x.abs() + edge.y.abs()) {
+            if side < border {
                 return None;
             }
             *weight = side.max(0.0);
