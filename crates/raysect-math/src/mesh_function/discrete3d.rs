@@ -2,8 +2,8 @@ use std::sync::Arc;
 
 use super::field::{Field, found};
 use super::tetrahedra::Tetrahedra;
-use crate::function::Function;
-use crate::{MathError, Point3D};
+use crate::function::{Function, Structured3D};
+use crate::{MathError, Point3D, Vector3D};
 
 /// A [`Function`] that is constant on each tetrahedron of a mesh in space.
 ///
@@ -80,6 +80,17 @@ impl Function<(f64, f64, f64)> for Discrete3DMesh {
     /// As [`evaluate`](Function::evaluate), with [`MathError::OutsideMesh`] in place of NaN.
     fn checked(&self, at: (f64, f64, f64)) -> Result<f64, MathError> {
         found(at, self.find(at))
+    }
+}
+
+impl Structured3D for Discrete3DMesh {
+    /// The shortest height of a tetrahedron.
+    fn length_scale(&self) -> f64 {
+        self.tetrahedra.shortest_height()
+    }
+
+    fn add_breaks(&self, origin: Point3D, direction: Vector3D, out: &mut Vec<f64>) {
+        self.tetrahedra.add_breaks(origin, direction, out);
     }
 }
 

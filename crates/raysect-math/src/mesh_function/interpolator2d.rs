@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use super::field::{Field, found};
 use super::triangles::Triangles;
-use crate::function::Function;
+use crate::function::{Function, Structured2D};
 use crate::{MathError, Point2D};
 
 /// A [`Function`] that is linear on each triangle of a mesh in a plane, between values at the vertices.
@@ -85,6 +85,17 @@ impl Function<(f64, f64)> for Interpolator2DMesh {
     /// As [`evaluate`](Function::evaluate), with [`MathError::OutsideMesh`] in place of NaN.
     fn checked(&self, at: (f64, f64)) -> Result<f64, MathError> {
         found(at, self.find(at))
+    }
+}
+
+impl Structured2D for Interpolator2DMesh {
+    /// The shortest height of a triangle.
+    fn length_scale(&self) -> f64 {
+        self.triangles.shortest_height()
+    }
+
+    fn each_edge(&self, each: &mut dyn FnMut([f64; 2], [f64; 2])) {
+        self.triangles.each_edge(each);
     }
 }
 

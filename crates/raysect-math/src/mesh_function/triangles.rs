@@ -58,6 +58,26 @@ impl Triangles {
         self.corners.len()
     }
 
+    /// The shortest height of a triangle above a side.
+    pub(super) fn shortest_height(&self) -> f64 {
+        let of = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|v| self.vertices[v as usize]);
+            let longest = a.vector_to(b).length().max(b.vector_to(c).length()).max(c.vector_to(a).length());
+            orientation(a, b, c).abs() / longest
+        };
+        self.corners.iter().map(of).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Lends the two ends of each side of each triangle; those between two triangles twice.
+    pub(super) fn each_edge(&self, each: &mut dyn FnMut([f64; 2], [f64; 2])) {
+        for corners in &self.corners {
+            let [a, b, c] = corners.map(|v| self.vertices[v as usize]).map(|p| [p.x, p.y]);
+            each(a, b);
+            each(b, c);
+            each(c, a);
+        }
+    }
+
     /// The vertices of a triangle.
     #[inline]
     pub(super) fn corners(&self, triangle: u32) -> [u32; 3] {

@@ -75,6 +75,16 @@ impl Axis {
         &self.knots
     }
 
+    /// Where its pieces meet, and where its values end: the knots, and the ends of what is beyond them.
+    pub(super) fn borders(&self) -> Vec<f64> {
+        let (first, last) = self.domain();
+        let beyond = [first - self.range, last + self.range];
+        let mut all = self.knots.clone();
+        all.extend(beyond.into_iter().filter(|x| x.is_finite() && self.range > 0.0));
+        all.sort_by(f64::total_cmp);
+        all
+    }
+
     #[inline]
     pub(super) fn len(&self) -> usize {
         self.knots.len()

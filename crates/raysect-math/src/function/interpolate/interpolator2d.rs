@@ -62,6 +62,11 @@ impl Interpolator2DArray {
         [self.x.axis().domain(), self.y.axis().domain()]
     }
 
+    /// Along each axis, the coordinates of the lines at which pieces meet or values end.
+    pub(in super::super) fn lines(&self) -> [Vec<f64>; 2] {
+        [&self.x, &self.y].map(|stencil| stencil.axis().borders())
+    }
+
     /// The derivative of the given orders along x and y; 0 and 0 is the value. NaN where there is no value.
     ///
     /// Where pieces meet, that of the piece above counts.

@@ -72,6 +72,11 @@ impl Interpolator3DArray {
         [self.x.axis().domain(), self.y.axis().domain(), self.z.axis().domain()]
     }
 
+    /// Along each axis, the coordinates of the planes at which pieces meet or values end.
+    pub(in super::super) fn planes(&self) -> [Vec<f64>; 3] {
+        [&self.x, &self.y, &self.z].map(|stencil| stencil.axis().borders())
+    }
+
     /// The derivative of the given orders along x, y and z; 0, 0 and 0 is the value. NaN where there is no value.
     ///
     /// Where pieces meet, that of the piece above counts.
