@@ -73,10 +73,11 @@ fn main() -> raysect::Result<()> {
     Ok(())
 }
 
-/// The light on the screen, a line for each pixel.
+/// The light on the screen, a line for each pixel that some has reached.
 fn save_table(arguments: &Arguments, power: &SpectralPowerPipeline2D, places: &[f64]) -> raysect::Result<()> {
     let wavelengths = power.wavelengths();
-    let rows = places.iter().enumerate().map(|(pixel, place)| {
+    let lit = places.iter().enumerate().filter(|(pixel, _)| power.total(*pixel).value > 0.0);
+    let rows = lit.map(|(pixel, place)| {
         let (total, bins) = (power.total(pixel), power.spectrum(pixel));
         let mean = bins.iter().zip(&wavelengths).map(|(p, w)| p * w).sum::<f64>() / bins.iter().sum::<f64>();
         vec![1e3 * place, total.value, total.error, mean]
@@ -110,11 +111,13 @@ fn compare(room: &Spectrograph, power: &SpectralPowerPipeline2D, places: &[f64])
 /// Where the light of a bin meets the screen on average [m].
 fn mean_place(room: &Spectrograph, wavelength: f64, width: f64) -> raysect::Result<f64> {
     const PARTS: usize = 11;
-    let mut sum = 0.0;
+    let (mut sum, mut weights) = (0.0, 0.0);
     for part in 0..PARTS {
-        sum += room.trace(wavelength + width * ((part as f64 + 0.5) / PARTS as f64 - 0.5))?.1;
+        let inside = wavelength + width * ((part as f64 + 0.5) / PARTS as f64 - 0.5);
+        let weight = room.brightness(inside);
+        (sum, weights) = (sum + weight * room.trace(inside)?.1, weights + weight);
     }
-    Ok(sum / PARTS as f64)
+    Ok(sum / weights)
 }
 
 /// The centre of the light of a bin on the screen, with its standard error [m].
