@@ -38,8 +38,9 @@ struct Arguments {
 const RANGE: (f64, f64) = (385.0, 715.0);
 const BINS: usize = 33;
 
-/// Wavelengths whose angles are printed [nm], each in the middle of a bin.
-const WAVELENGTHS: [f64; 7] = [400.0, 420.0, 450.0, 490.0, 550.0, 600.0, 680.0];
+/// Wavelengths whose angles are printed [nm], each in the middle of a bin. At shorter ones flint glass absorbs so much that
+/// the light comes through nearer to the apex.
+const WAVELENGTHS: [f64; 7] = [420.0, 450.0, 490.0, 520.0, 550.0, 600.0, 680.0];
 
 /// Height of the strip [pixels]: the row is drawn so often.
 const HEIGHT: usize = 96;
@@ -108,16 +109,15 @@ fn compare(room: &Spectrograph, power: &SpectralPowerPipeline2D, places: &[f64])
     Ok(())
 }
 
-/// Where the light of a bin meets the screen on average [m].
+/// Where the light of a bin meets the screen on average [m]: within it all wavelengths are as bright, since lamps and glass
+/// count as their averages over a bin.
 fn mean_place(room: &Spectrograph, wavelength: f64, width: f64) -> raysect::Result<f64> {
     const PARTS: usize = 11;
-    let (mut sum, mut weights) = (0.0, 0.0);
+    let mut sum = 0.0;
     for part in 0..PARTS {
-        let inside = wavelength + width * ((part as f64 + 0.5) / PARTS as f64 - 0.5);
-        let weight = room.brightness(inside);
-        (sum, weights) = (sum + weight * room.trace(inside)?.1, weights + weight);
+        sum += room.trace(wavelength + width * ((part as f64 + 0.5) / PARTS as f64 - 0.5))?.1;
     }
-    Ok(sum / weights)
+    Ok(sum / PARTS as f64)
 }
 
 /// The centre of the light of a bin on the screen, with its standard error [m].

@@ -106,13 +106,6 @@ impl Spectrograph {
         (incidence + (index * inside.sin()).asin() - apex).to_degrees()
     }
 
-    /// How much light of a wavelength [nm] comes through the prism, relative to others: that of the sun, less what the
-    /// glass absorbs on the way that is parallel to the base.
-    pub(crate) fn brightness(&self, wavelength: f64) -> f64 {
-        let way = self.entry.distance_to(self.exit);
-        d65_white().evaluate(wavelength) * self.glass.transmission().function().evaluate(wavelength).powf(way)
-    }
-
     /// Follows light of a wavelength [nm] through the middle of the hole: the angle by which it is turned [deg], and
     /// where it meets the screen, along its x axis [m].
     pub(crate) fn trace(&self, wavelength: f64) -> raysect::Result<(f64, f64)> {
