@@ -228,7 +228,7 @@ fn paths_of_a_mean_can_be_followed_one_by_one() {
     let ray =
         Ray::new(Point3D::new(0.0, 3.0, -5.0), Vector3D::new(0.3, -0.5, 1.0)).spectrum(400.0, 700.0, BINS);
     let sampled = ray.sample(&world, 200).unwrap();
-    let mut means = vec![Statistics::new(); BINS];
+    let mut means = [Statistics::new(); BINS];
     for sample in 0..200 {
         let path = ray.replay(&world, sample).unwrap();
         means.iter_mut().zip(&path.radiance).for_each(|(mean, radiance)| mean.add(*radiance));

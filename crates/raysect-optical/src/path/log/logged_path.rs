@@ -1,9 +1,7 @@
 use std::fmt;
 
-use raysect_core::World as AnyWorld;
-
 use super::{PathEvent, PathVertex};
-use crate::{OpticalError, Optics, Spectrum};
+use crate::{OpticalError, Spectrum, World};
 
 /// Everything that has happened to one path, from where light is measured to where it comes from.
 ///
@@ -58,7 +56,7 @@ impl LoggedPath {
     }
 
     /// With the names that nodes have in the world in which it was followed.
-    pub fn with_names(mut self, world: &AnyWorld<Optics>) -> Self {
+    pub fn with_names(mut self, world: &World) -> Self {
         for hit in self.vertices.iter_mut().filter_map(|vertex| vertex.hit.as_mut()) {
             hit.name = world.name(hit.node).unwrap_or_default().to_owned();
         }

@@ -2,6 +2,7 @@
 
 mod event;
 mod files;
+mod hit;
 mod logged_path;
 mod vertex;
 
@@ -9,8 +10,9 @@ use raysect_core::{BoundingBox3D, Ray};
 use raysect_math::{Point3D, Vector3D};
 
 pub use event::PathEvent;
+pub use hit::VertexHit;
 pub use logged_path::LoggedPath;
-pub use vertex::{PathVertex, VertexHit};
+pub use vertex::PathVertex;
 
 use super::{Ledger, Path};
 use crate::{Scatter, Scene};

@@ -1,7 +1,6 @@
-use raysect_core::NodeId;
 use raysect_math::Point3D;
 
-use super::PathEvent;
+use super::{PathEvent, VertexHit};
 
 /// A place where something happens to a path.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,7 +8,7 @@ pub struct PathVertex {
     /// Where, in world space [m]. A path that escapes has no such place: it is drawn to the end that was set to its ray,
     /// else to a point outside of everything.
     pub point: Point3D,
-    /// What is there; none where a path starts or escapes.
+    /// What is there; none where a path starts or escapes, or a volume was to scatter it and nothing did.
     pub hit: Option<VertexHit>,
     /// What happens.
     pub event: PathEvent,
@@ -24,21 +23,6 @@ pub struct PathVertex {
     /// The radiance that the vertex adds to the path's [W/m²/sr/nm], bin by bin: what the surface emits, and the light
     /// that is looked for from there, both as they count in the sum.
     pub radiance: Vec<f64>,
-}
-
-/// What a path meets at a vertex.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct VertexHit {
-    /// The node of the shape.
-    pub node: NodeId,
-    /// The name of the node, if it has one, and names were [asked for](super::LoggedPath::with_names).
-    pub name: String,
-    /// What the shape is.
-    pub shape: &'static str,
-    /// What its material is called.
-    pub material: String,
-    /// True if the path arrives at the inner side of the surface, or is inside its volume.
-    pub inside: bool,
 }
 
 impl PathVertex {
