@@ -15,5 +15,6 @@ mod panics;
 mod parallel;
 mod passes;
 mod refusals;
+mod replays;
 mod statepoints;
 mod world;
