@@ -88,7 +88,7 @@ pub(super) fn on_edges(
 }
 
 /// n³ cubes with random corners inside, each cut into six tetrahedra around a diagonal (H. Freudenthal).
-pub(super) fn cubes(n: usize, from: f64) -> (Vec<Point3D>, Vec<[u32; 4]>) {
+pub(crate) fn cubes(n: usize, from: f64) -> (Vec<Point3D>, Vec<[u32; 4]>) {
     let mut rng = Rng::new(43);
     let mut place = |i: usize| {
         let shift = if i == 0 || i == n { 0.0 } else { rng.range(-0.1, 0.1) };

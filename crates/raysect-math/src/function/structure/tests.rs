@@ -27,7 +27,7 @@ fn line(rng: &mut Rng) -> (Point3D, Vector3D) {
 fn assert_smooth_between_breaks(function: &dyn Structured3D, seed: u64) -> usize {
     let mut rng = Rng::new(seed);
     let mut pieces = 0;
-    for _ in 0..300 {
+    for _ in 0..2000 {
         let (origin, direction) = line(&mut rng);
         let mut breaks = vec![0.0, 1.0];
         function.add_breaks(origin, direction, &mut breaks);
