@@ -53,6 +53,7 @@
 //! }
 //! ```
 
+mod adaptive;
 mod display;
 mod error;
 pub mod file;
@@ -76,6 +77,7 @@ mod target;
 mod targeted;
 pub mod testing;
 
+pub use adaptive::{AdaptiveSampling, SpectralReduction};
 pub use display::{ColourMap, MonoDisplay};
 pub use error::ObserverError;
 pub use frame::{BLOCK, Estimate, Frame};

@@ -25,6 +25,8 @@ pub struct RenderReport {
     pub passes: usize,
     /// Samples taken of all pixels, by this observation, without those of the pilot.
     pub samples: u64,
+    /// Samples taken of all pixels that only decided about the others, and were thrown away.
+    pub pilot_samples: u64,
     /// Time taken.
     pub elapsed: Duration,
     /// What has become of the paths, those of the pilot included.
