@@ -68,6 +68,7 @@ mod plan;
 #[cfg(feature = "plot")]
 pub mod plot;
 mod progress;
+mod reading;
 mod report;
 mod sensor;
 mod statepoint;
@@ -101,6 +102,7 @@ pub use pipeline::{
 };
 pub use plan::Plan;
 pub use progress::Progress;
+pub use reading::Reading;
 pub use report::{Convergence, RenderReport};
 pub use sensor::{FrameShape, Sensor};
 pub use statepoint::{Statepoint, StatepointError};

@@ -236,7 +236,8 @@ impl<S: Sensor> Observer<S> {
         self
     }
 
-    /// Tells a function how far it is, a few times a second.
+    /// Tells a function how far it is, a few times a second: samples done and foreseen, their rate, the time left and the
+    /// error reached.
     pub fn on_progress(mut self, watcher: impl Fn(&Progress) + Send + Sync + 'static) -> Self {
         self.watcher = Some(Arc::new(watcher));
         self

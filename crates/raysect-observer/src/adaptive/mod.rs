@@ -20,12 +20,14 @@ use crate::{Frame, ObserverError};
 /// the first sample that counts is taken: whatever the pilot saw, the mean of each pixel is that of a fixed number of
 /// samples, without bias, and its standard error means what it says.
 ///
-/// The pilot begins with 32 samples a pixel, or a quarter of the average if that is less, and goes on to an eighth of
-/// what a pixel is to have: in all a quarter of the samples (three eighths below an average of 128). The same
-/// observation makes the same decisions, on any number of threads and after it was interrupted.
+/// The pilot has an eighth of the average number of samples of every pixel (32 of them at least, or a quarter if that is
+/// less) and goes on to an eighth of what a pixel is to have: in all less than a quarter of the samples, or three eighths
+/// below an average of 256. The same observation makes the same decisions, on any number of threads and after it was
+/// interrupted.
 ///
-/// What a few equal samples tell of a variance is little, so the pixels' variances are raised by that of the average
-/// pixel, divided by the number of pilot samples: a pixel in which nothing has been seen yet is not taken for accurate.
+/// A few samples tell little of a variance, least of all if they are equal. The pixels around a pixel therefore have a
+/// say in its mean and variance, of the weight of four samples, and the variance is raised by that of the average pixel
+/// divided by the number of pilot samples: a pixel in which nothing has been seen yet is not taken for accurate.
 ///
 /// The first of the observer's pipelines decides; the others see the same samples.
 ///

@@ -2,8 +2,9 @@
 
 use super::noise::{Noise, percentile};
 use super::{AdaptiveSampling, Rule};
+use crate::BLOCK;
 
-/// Samples a pixel with which a pilot begins.
+/// Samples a pixel with which a pilot begins, at least.
 const PILOT: u64 = 32;
 /// Of how many samples of a pixel one is the pilot's.
 const PILOT_EVERY: u64 = 8;
@@ -32,11 +33,11 @@ impl SamplePlan {
         &self.samples
     }
 
-    /// How many samples the pilot is to have of a pixel, before anything more is decided about it: whole blocks, once it
-    /// has more than those that it begins with.
+    /// How many samples the pilot is to have of a pixel that is to have so many: no fewer than of the average one, and
+    /// whole blocks if there are enough.
     pub(crate) fn pilot(&self, samples: u64) -> u64 {
-        let first = PILOT.min(self.sampling.samples / 4).max(2);
-        first.max(samples / PILOT_EVERY / crate::BLOCK * crate::BLOCK)
+        let least = PILOT.min(self.sampling.samples / 4).max(2);
+        least.max(samples.max(self.sampling.samples) / PILOT_EVERY / BLOCK * BLOCK)
     }
 
     fn allowed(&self) -> u64 {
@@ -120,4 +121,73 @@ fn factor(weights: &[f64], least: f64, total: f64) -> f64 {
         factor = next;
     }
     factor
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a rule makes of noise that does not change.
+    fn planned(sampling: AdaptiveSampling, noise: &[f64]) -> Vec<u64> {
+        let mut plan = SamplePlan::new(&sampling, noise.len());
+        let noise = Noise(noise.to_vec());
+        while plan.extend(&noise) {}
+        plan.samples
+    }
+
+    #[test]
+    fn products_below_the_least_are_raised_and_the_others_share_the_rest() {
+        assert_eq!(factor(&[1.0, 2.0, 3.0], 0.0, 60.0), 10.0);
+        // 20 for the least, 80 for weights of 2 and 3.
+        assert_eq!(factor(&[1.0, 2.0, 3.0], 20.0, 100.0), 16.0);
+        assert_eq!(factor(&[0.0, 0.0], 10.0, 100.0), 0.0);
+        assert_eq!(factor(&[1.0, 1.0], 10.0, 20.0), 10.0);
+    }
+
+    #[test]
+    fn noise_is_answered_by_variances_for_equal_errors_and_by_deviations_for_a_total() {
+        let free = |sampling: AdaptiveSampling| sampling.min_samples(1).unwrap().ratio(1e3).unwrap();
+        assert_eq!(planned(free(AdaptiveSampling::equal_errors(100)), &[1.0, 3.0]), [20, 180]);
+        assert_eq!(planned(free(AdaptiveSampling::total(100)), &[1.0, 3.0]), [50, 150]);
+        // 25 at least, and not more than twice as many as another.
+        assert_eq!(planned(AdaptiveSampling::total(100), &[1.0, 9.0]), [25, 175]);
+        assert_eq!(planned(AdaptiveSampling::total(300).ratio(2.0).unwrap(), &[1.0, 9.0]), [200, 400]);
+    }
+
+    #[test]
+    fn the_worst_pixels_come_first() {
+        let mono = AdaptiveSampling::mono(160).fraction(0.5).unwrap();
+        // Passes of 10 samples, from 40 on, each for one of the two.
+        assert_eq!(planned(mono, &[1.0, 9.0]), [40, 280]);
+        assert_eq!(planned(mono.ratio(2.0).unwrap(), &[1.0, 9.0]), [100, 210]);
+        let found = planned(mono, &[1.0, 2f64.sqrt()]);
+        assert!(found[0] + found[1] == 320 && found[1].abs_diff(2 * found[0]) <= 20, "{found:?}");
+        // What is alike is treated alike.
+        assert_eq!(planned(mono, &[2.0; 7]), [160; 7]);
+    }
+
+    #[test]
+    fn accurate_pixels_are_left_alone() {
+        for sampling in [AdaptiveSampling::mono(1600), AdaptiveSampling::equal_errors(1600)] {
+            let sampling = sampling.cutoff(0.1).unwrap();
+            // Variances of 1 and 9 to 10 %: 100 and 900 samples, and 400 at least.
+            let found = planned(sampling, &[1.0, 3.0]);
+            assert!(found[0] == 400 && (900..1000).contains(&found[1]), "{found:?}");
+            assert_eq!(planned(sampling, &[0.0; 3]), [400; 3]);
+            let mut plan = SamplePlan::new(&sampling, 3);
+            let noise = Noise(vec![1.0, 3.0, 1e3]);
+            assert_eq!(plan.inaccurate(&noise), 2);
+            while plan.extend(&noise) {}
+            assert_eq!(plan.inaccurate(&noise), 1);
+        }
+    }
+
+    #[test]
+    fn a_pilot_takes_an_eighth_in_whole_blocks() {
+        let plan = SamplePlan::new(&AdaptiveSampling::mono(1000), 1);
+        assert_eq!([0, 1000, 1023, 1024, 2000].map(|samples| plan.pilot(samples)), [96, 96, 96, 128, 224]);
+        let small = SamplePlan::new(&AdaptiveSampling::mono(40), 1);
+        assert_eq!(small.pilot(10), 10);
+        assert_eq!(SamplePlan::new(&AdaptiveSampling::mono(1), 1).pilot(1), 2);
+    }
 }

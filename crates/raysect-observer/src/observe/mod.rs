@@ -13,7 +13,7 @@ use raysect_optical::{Ledger, Scene, Slice, World};
 
 use crate::progress::Meter;
 use crate::statepoint::{scene_fingerprint, write_statepoint};
-use crate::{Frame, Observer, ObserverError, Pipeline, Pipelines, RenderReport, Sensor};
+use crate::{Frame, Observer, ObserverError, Pipeline, Pipelines, Reading, RenderReport, Sensor};
 
 /// Samples that only decide about those that count, the same for all lanes of them.
 const PILOT_LANE: u64 = u64::MAX;
@@ -94,6 +94,7 @@ impl<'a, S: Sensor> Session<'a, S> {
             invalid: 0,
             cancelled: false,
             convergence: None,
+            readings: Vec::new(),
         };
         Ok(Self {
             observer,
@@ -148,7 +149,10 @@ impl<'a, S: Sensor> Session<'a, S> {
     }
 
     fn finish(mut self) -> RenderReport {
-        self.report.elapsed = self.meter.elapsed();
+        let (added, elapsed) = (self.report.samples, self.meter.elapsed());
+        self.report.elapsed = elapsed;
+        self.report.readings =
+            self.pipelines.iter().map(|p| Reading::of(p.frame(), added, elapsed)).collect();
         self.report
     }
 
@@ -200,6 +204,7 @@ impl<'a, S: Sensor> Session<'a, S> {
         }
         self.report.passes += 1;
         self.report.samples += outcome?;
+        self.meter.set_error(self.pipelines[0].frame().total().relative_error());
         for pipeline in &mut self.pipelines {
             pipeline.pass_finished()?;
         }

@@ -1,0 +1,131 @@
+use std::fmt;
+use std::time::Duration;
+
+use crate::stop::CONTRIBUTING;
+use crate::{Estimate, Frame};
+
+/// The share of the variance of a total that one sample may make. A sample that makes a third of it makes the relative
+/// variance of the variance a tenth, beyond which MCNP believes no error (X-5 Monte Carlo Team, *MCNP*, LA-UR-03-1987,
+/// vol. I, ch. 2, § VI, the fifth of its ten checks).
+const THIRD: f64 = 1.0 / 3.0;
+/// The share of the pixels that may have a firefly: far less than the one in twenty that a 95 % interval leaves out.
+const MANY: f64 = 0.01;
+/// From so many samples on, one that makes half of a pixel is a firefly.
+const ENOUGH: u64 = 32;
+/// The share of a pixel's value that a firefly makes, at least.
+const HALF: f64 = 0.5;
+
+/// What a pipeline has gathered in all, and what tells whether its error bars can be believed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// Name of the pipeline.
+    pub pipeline: String,
+    /// Name of its first channel.
+    pub channel: String,
+    /// Unit of its values.
+    pub unit: String,
+    /// The sum of the first channel over all pixels observed, of all samples that the pipeline has.
+    pub total: Estimate,
+    /// How fast the total becomes known, 1 / (R² t) [1/s], with its relative error R and the time t that its samples
+    /// have taken (those of earlier observations at the speed of this one). It does not depend on the number of
+    /// samples, and a better method has a higher one. Infinite without noise, 0 where nothing is known.
+    pub figure_of_merit: f64,
+    /// Samples of all pixels.
+    pub samples: u64,
+    /// How many of them brought any light.
+    pub contributing: u64,
+    /// The largest share of the total that a single sample makes, 0 … 1: the largest absolute value that any channel had
+    /// in a sample of a pixel ([`Frame::largest`]), over the number of samples of that pixel, over the largest absolute
+    /// total of any channel.
+    pub largest_share: f64,
+    /// The share of the variance of the total that a single sample makes, about 0 … 1: the square of what that sample
+    /// adds to the total beyond the mean of its pixel, over the largest squared error of the total of any channel.
+    pub variance_share: f64,
+    /// In how many pixels, of at least 32 samples, one sample makes more than half of the value. The error of such a
+    /// pixel is large, and is right; but about as many pixels again have missed their bright sample, and their errors
+    /// know nothing of it.
+    pub fireflies: usize,
+    /// Pixels observed.
+    pub pixels: usize,
+}
+
+impl Reading {
+    /// Of a frame, after an observation that has added samples in a time.
+    pub(crate) fn of(frame: &Frame, added: u64, elapsed: Duration) -> Self {
+        let totals: Vec<Estimate> = (0..frame.channels().len()).map(|c| frame.total_of(c)).collect();
+        let total = totals.first().copied().unwrap_or(Estimate { value: 0.0, error: f64::INFINITY });
+        let brightest = totals.iter().map(|total| total.value.abs()).fold(0.0, f64::max);
+        let error = totals.iter().map(|total| total.error).fold(0.0, f64::max);
+        let samples = frame.total_samples();
+        let seconds = elapsed.as_secs_f64() * samples as f64 / added as f64;
+        let merit = 1.0 / (total.relative_error().powi(2) * seconds);
+        let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
+        let (mut largest, mut beyond, mut fireflies) = (0.0, 0.0, 0);
+        for pixel in frame.observed_pixels() {
+            let count = frame.samples(pixel);
+            let (sample, mean) = (frame.largest(pixel), mean(frame, pixel));
+            largest = f64::max(largest, sample / count.max(1) as f64);
+            beyond = f64::max(beyond, (sample - mean) / count.max(1) as f64);
+            fireflies += usize::from(count >= ENOUGH && sample > HALF * mean * count as f64);
+        }
+        Self {
+            pipeline: frame.name().to_owned(),
+            channel: frame.channels().first().cloned().unwrap_or_default(),
+            unit: frame.unit().to_owned(),
+            total,
+            figure_of_merit: if merit.is_nan() { 0.0 } else { merit },
+            samples,
+            contributing: frame.observed_pixels().map(|pixel| frame.contributing(pixel)).sum(),
+            largest_share: share(largest, brightest),
+            variance_share: share(beyond * beyond, error * error),
+            fireflies,
+            pixels: frame.observed_pixels().count(),
+        }
+    }
+
+    /// What speaks against its error bars.
+    pub(crate) fn warnings(&self) -> Vec<String> {
+        let mut all = Vec::new();
+        let Self { pipeline, contributing, fireflies, pixels, .. } = self;
+        let noisy = self.total.relative_error() > 1e-12;
+        if noisy && *contributing < CONTRIBUTING {
+            all.push(format!(
+                "{contributing} samples of '{pipeline}' brought light: too few to know an error by"
+            ));
+        } else if noisy && self.variance_share > THIRD {
+            all.push(format!(
+                "one sample makes {:.2} % of the total of '{pipeline}' and {:.0} % of its variance: others like it may \
+                 be missing, and the error does not know of them",
+                100.0 * self.largest_share,
+                100.0 * self.variance_share
+            ));
+        }
+        if *fireflies as f64 > MANY * *pixels as f64 && *pixels > 1 {
+            all.push(format!(
+                "in {fireflies} of {pixels} pixels of '{pipeline}' one sample makes more than half of the value: about \
+                 as many have missed theirs, and their errors do not know of it"
+            ));
+        }
+        all
+    }
+}
+
+/// The largest absolute mean of any channel of a pixel.
+fn mean(frame: &Frame, pixel: usize) -> f64 {
+    let channels = 0..frame.channels().len();
+    channels.map(|channel| frame.pixel(pixel, channel).value.abs()).fold(0.0, f64::max)
+}
+
+impl fmt::Display for Reading {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { pipeline, channel, unit, total, .. } = self;
+        let name = if pipeline == channel { String::new() } else { format!(", {channel}") };
+        let light = 100.0 * self.contributing as f64 / (self.samples as f64).max(1.0);
+        write!(
+            f,
+            "{pipeline}{name}: total {total} {unit}, figure of merit {:.3e} 1/s; {light:.1} % of the samples brought \
+             light, the largest is {:.1e} of the total",
+            self.figure_of_merit, self.largest_share
+        )
+    }
+}
