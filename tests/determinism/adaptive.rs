@@ -65,7 +65,7 @@ fn samples_are_as_many_as_allowed_and_the_pilot_is_bounded() {
         let report = adapt(&mut pictures, &CASE.camera(1), &sampling);
         let (taken, allowed) = (pictures.rgb.frame().total_samples(), SAMPLES * COUNT as u64);
         assert_eq!(report.samples, taken);
-        assert!(taken <= allowed && report.pilot_samples <= taken / 4 + taken / 8, "{report}");
+        assert!(taken <= allowed && report.pilot_samples <= taken / 16 * 5, "{report}");
         match report.convergence {
             None => assert!(taken + COUNT as u64 > allowed, "{taken} of {allowed}"),
             Some(convergence) => assert_eq!(convergence.elements, COUNT),

@@ -20,14 +20,14 @@ use crate::{Frame, ObserverError};
 /// the first sample that counts is taken: whatever the pilot saw, the mean of each pixel is that of a fixed number of
 /// samples, without bias, and its standard error means what it says.
 ///
-/// The pilot has an eighth of the average number of samples of every pixel (32 of them at least, or a quarter if that is
-/// less) and goes on to an eighth of what a pixel is to have: in all less than a quarter of the samples, or three eighths
-/// below an average of 256. The same observation makes the same decisions, on any number of threads and after it was
+/// The pilot has a sixteenth of the average number of samples of every pixel (32 of them at least, or a quarter if that is
+/// less) and goes on to a sixteenth of what a pixel is to have: in all less than an eighth of the samples from an average
+/// of 512 on, and 5/16 at most. The same observation makes the same decisions, on any number of threads and after it was
 /// interrupted.
 ///
-/// A few samples tell little of a variance, least of all if they are equal. The pixels around a pixel therefore have a
-/// say in its mean and variance, of the weight of four samples, and the variance is raised by that of the average pixel
-/// divided by the number of pilot samples: a pixel in which nothing has been seen yet is not taken for accurate.
+/// A few samples tell little of a variance, least of all if they are equal. Half of what counts is therefore the variance
+/// of the pixels around a pixel, and that of the average pixel is added, divided by the number of pilot samples: a pixel
+/// in which nothing has been seen yet is not taken for accurate.
 ///
 /// The first of the observer's pipelines decides; the others see the same samples.
 ///

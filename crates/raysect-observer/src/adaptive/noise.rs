@@ -3,104 +3,91 @@
 use super::{AdaptiveSampling, Figure, Rule};
 use crate::{Frame, FrameShape};
 
-/// So many samples' weight have the pixels around a pixel in what is known of it.
-const NEIGHBOURS: f64 = 4.0;
-
 /// The standard deviation of a sample of each pixel that is observed, as it enters a rule: relative to the mean, or over
 /// the root of the number of rays.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Noise(pub(super) Vec<f64>);
 
-/// Mean and variance of the samples of a pixel in a channel, or of several pixels.
-#[derive(Debug, Clone, Copy, Default)]
-struct Moments {
-    mean: f64,
-    variance: f64,
-}
-
 /// What is known of a channel.
 struct Channel {
-    /// Of each pixel that is observed, together with those around it.
-    pixels: Vec<Moments>,
-    average: Moments,
-}
-
-impl Moments {
-    /// As the error of a pixel shows it; a variance that is not known is zero.
-    fn of(frame: &Frame, pixel: usize, channel: usize) -> Self {
-        let estimate = frame.pixel(pixel, channel);
-        let variance = estimate.error.powi(2) * frame.samples(pixel) as f64;
-        let variance = if variance.is_finite() { variance } else { 0.0 };
-        Self { mean: estimate.value.abs(), variance }
-    }
-
-    fn average(all: impl Iterator<Item = Self>) -> Self {
-        let (mut sum, mut count) = (Self::default(), 0.0);
-        for one in all {
-            count += 1.0;
-            sum = Self { mean: sum.mean + one.mean, variance: sum.variance + one.variance };
-        }
-        let count = f64::max(count, 1.0);
-        Self { mean: sum.mean / count, variance: sum.variance / count }
-    }
-
-    /// Together with others, by the weights of both.
-    fn with(self, other: Self, weights: (f64, f64)) -> Self {
-        let of = |a: f64, b: f64| (a * weights.0 + b * weights.1) / (weights.0 + weights.1);
-        Self { mean: of(self.mean, other.mean), variance: of(self.variance, other.variance) }
-    }
-
-    /// The variance relative to the square of the mean; none without a mean.
-    fn relative(self) -> Option<f64> {
-        (self.mean > 0.0).then(|| self.variance / (self.mean * self.mean))
-    }
+    /// The absolute mean of each pixel that is observed.
+    means: Vec<f64>,
+    /// The variance of a sample of each, half of it that of the pixels around; relative to the square of the mean, if
+    /// that is asked for.
+    variances: Vec<f64>,
+    /// The variance of the average pixel.
+    average: f64,
 }
 
 impl Channel {
-    fn of(frame: &Frame, pixels: &[usize], channel: usize) -> Self {
-        let mut all = vec![None; frame.shape().pixels()];
-        pixels.iter().for_each(|&pixel| all[pixel] = Some(Moments::of(frame, pixel, channel)));
-        let pooled = |&pixel: &usize| {
-            let around = Moments::average(around(frame.shape(), pixel).filter_map(|p| all[p]));
-            let own = all[pixel].unwrap_or_default();
-            own.with(around, (frame.samples(pixel) as f64, NEIGHBOURS))
+    fn of(frame: &Frame, pixels: &[usize], channel: usize, is_relative: bool) -> Self {
+        let means: Vec<f64> = pixels.iter().map(|&p| frame.pixel(p, channel).value.abs()).collect();
+        let plain: Vec<f64> = pixels.iter().map(|&p| variance(frame, p, channel)).collect();
+        let (mean, average) = (average(means.iter().copied()), average(plain.iter().copied()));
+        let average = if is_relative { relative(average, mean).unwrap_or(0.0) } else { average };
+        let own = |place: usize| match is_relative {
+            true => relative(plain[place], means[place]),
+            false => Some(plain[place]),
         };
-        let average = Moments::average(all.iter().copied().flatten());
-        Self { pixels: pixels.iter().map(pooled).collect(), average }
+        // None where nothing has been seen: that says nothing of the others.
+        let mut known = vec![None; frame.shape().pixels()];
+        pixels.iter().enumerate().for_each(|(place, &pixel)| known[pixel] = own(place));
+        let pooled = |&pixel: &usize| {
+            let around = self::average(around(frame.shape(), pixel).filter_map(|p| known[p]));
+            0.5 * (known[pixel].unwrap_or(around) + around)
+        };
+        let variances = pixels.iter().map(pooled).collect();
+        Self { means, variances, average }
     }
+}
+
+/// The variance of a sample, as the error of a pixel shows it; zero if it is not known.
+fn variance(frame: &Frame, pixel: usize, channel: usize) -> f64 {
+    let variance = frame.pixel(pixel, channel).error.powi(2) * frame.samples(pixel) as f64;
+    if variance.is_finite() { variance } else { 0.0 }
+}
+
+fn relative(variance: f64, mean: f64) -> Option<f64> {
+    (mean > 0.0).then(|| variance / (mean * mean))
+}
+
+/// Zero of nothing.
+fn average(numbers: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = numbers.fold((0.0, 0.0), |(sum, count), number| (sum + number, count + 1.0));
+    sum / f64::max(count, 1.0)
 }
 
 impl Noise {
     /// Of what some pixels of a frame tell, and the rays that were traced for all samples of each pixel.
     pub(crate) fn of(sampling: &AdaptiveSampling, frame: &Frame, pixels: &[usize], rays: &[u64]) -> Self {
         let count = if sampling.figure == Figure::First { 1 } else { frame.channels().len() };
-        let channels: Vec<Channel> = (0..count).map(|c| Channel::of(frame, pixels, c)).collect();
+        let is_relative = sampling.rule != Rule::Total;
+        let channels: Vec<Channel> =
+            (0..count).map(|channel| Channel::of(frame, pixels, channel, is_relative)).collect();
+        // Where nothing at all has been seen, as little is known of one pixel as of another.
+        let dark = channels.iter().all(|channel| channel.means.iter().all(|mean| *mean == 0.0));
         let spread = |(place, &pixel): (usize, &usize)| {
             let samples = frame.samples(pixel).max(1) as f64;
-            if sampling.rule == Rule::Total {
-                let variance = channels[0].pixels[place].variance + channels[0].average.variance / samples;
-                return (variance * samples / rays[pixel].max(1) as f64).sqrt();
+            let of = |channel: &Channel| {
+                let variance = channel.variances[place] + (channel.average + f64::from(dark)) / samples;
+                (channel.means[place], variance.sqrt())
+            };
+            match is_relative {
+                true => reduced(sampling.figure, channels.iter().map(of)),
+                false => of(&channels[0]).1 / (rays[pixel].max(1) as f64 / samples).sqrt(),
             }
-            relative(sampling.figure, &channels, place, samples)
         };
         Self(pixels.iter().enumerate().map(spread).collect())
     }
 }
 
-/// The relative standard deviation of a sample of a pixel.
-fn relative(figure: Figure, channels: &[Channel], place: usize, samples: f64) -> f64 {
-    // Where nothing at all has been seen, as little is known of one pixel as of another.
-    let dark = channels.iter().all(|channel| channel.average.mean == 0.0);
-    let of = |channel: &Channel| {
-        let own = channel.pixels[place];
-        let floor = channel.average.relative().unwrap_or(f64::from(dark)) / samples;
-        (own.mean, (own.relative().unwrap_or(0.0) + floor).sqrt())
-    };
-    let worst = || channels.iter().map(|channel| of(channel).1).fold(0.0, f64::max);
+/// One number of the means and relative deviations of all channels.
+fn reduced(figure: Figure, channels: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
+    let worst = || channels.clone().map(|(_, relative)| relative).fold(0.0, f64::max);
     match figure {
         Figure::First | Figure::Colour => worst(),
         Figure::Bins(reduction) => {
-            let bins: Vec<(f64, f64)> = channels[1..].iter().map(of).filter(|bin| bin.0 > 0.0).collect();
+            let bins: Vec<(f64, f64)> = channels.clone().skip(1).filter(|bin| bin.0 > 0.0).collect();
             reduction.of(&bins).unwrap_or_else(worst)
         }
     }
@@ -163,20 +150,16 @@ mod tests {
     fn noise_is_that_of_the_samples_with_a_little_of_the_others() {
         // Means 2, 1 and 0, variances 4/3, 1/3 and 0 of four samples each; averages of 1 and 5/9.
         let samples: [&[f64]; 3] = [&[1.0, 3.0, 1.0, 3.0], &[0.5, 1.5, 0.5, 1.5], &[0.0; 4]];
-        let (v, floor) = ([4.0 / 3.0, 1.0 / 3.0, 0.0], 5.0 / 9.0);
-        let pooled = |own: f64, around: f64| (own + around) / 2.0;
-        let means = [pooled(2.0, 1.5), pooled(1.0, 1.0), pooled(0.0, 0.5)];
-        let variances = [pooled(v[0], (v[0] + v[1]) / 2.0), pooled(v[1], floor), pooled(v[2], v[1] / 2.0)];
-        let found = noise(AdaptiveSampling::mono(10), &samples);
-        for (pixel, found) in found.iter().enumerate() {
-            let expected = variances[pixel] / means[pixel].powi(2) + floor / 4.0;
-            assert!((found * found / expected - 1.0).abs() < 1e-12, "{pixel}");
-        }
-        // Two rays a sample.
-        let found = noise(AdaptiveSampling::total(10), &samples);
-        for (pixel, found) in found.iter().enumerate() {
-            let expected = (variances[pixel] + floor / 4.0) / 2.0;
-            assert!((found * found / expected - 1.0).abs() < 1e-12, "{pixel}");
+        let third = 1.0 / 3.0;
+        // Relative variances of a third where something is seen. Two rays a sample.
+        let plain = [0.5 * (4.0 + 2.5) * third, 0.5 * (1.0 + 5.0 * third) * third, 0.25 * third];
+        for (sampling, variances, rays) in
+            [(AdaptiveSampling::mono(10), [third; 3], 1.0), (AdaptiveSampling::total(10), plain, 2.0)]
+        {
+            for (pixel, found) in noise(sampling, &samples).iter().enumerate() {
+                let expected = (variances[pixel] + 5.0 / 9.0 / 4.0) / rays;
+                assert!((found * found / expected - 1.0).abs() < 1e-12, "{pixel}: {found}, {sampling:?}");
+            }
         }
     }
 

@@ -7,7 +7,7 @@ use crate::BLOCK;
 /// Samples a pixel with which a pilot begins, at least.
 const PILOT: u64 = 32;
 /// Of how many samples of a pixel one is the pilot's.
-const PILOT_EVERY: u64 = 8;
+const PILOT_EVERY: u64 = 16;
 /// In how many passes the average number of samples would be reached if all pixels took part.
 const PASSES: u64 = 16;
 
@@ -183,9 +183,11 @@ mod tests {
     }
 
     #[test]
-    fn a_pilot_takes_an_eighth_in_whole_blocks() {
+    fn a_pilot_takes_a_sixteenth_in_whole_blocks() {
         let plan = SamplePlan::new(&AdaptiveSampling::mono(1000), 1);
-        assert_eq!([0, 1000, 1023, 1024, 2000].map(|samples| plan.pilot(samples)), [96, 96, 96, 128, 224]);
+        assert_eq!([0, 1000, 1023, 1024, 2000].map(|samples| plan.pilot(samples)), [32, 32, 32, 64, 96]);
+        let large = SamplePlan::new(&AdaptiveSampling::mono(2000), 1);
+        assert_eq!([0, 2000, 4000].map(|samples| large.pilot(samples)), [96, 96, 224]);
         let small = SamplePlan::new(&AdaptiveSampling::mono(40), 1);
         assert_eq!(small.pilot(10), 10);
         assert_eq!(SamplePlan::new(&AdaptiveSampling::mono(1), 1).pilot(1), 2);
