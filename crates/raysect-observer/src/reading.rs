@@ -2,7 +2,7 @@ use std::fmt;
 use std::time::Duration;
 
 use crate::stop::CONTRIBUTING;
-use crate::{Estimate, Frame};
+use crate::{Estimate, Frame, Pipeline};
 
 /// The share of the variance of a total that one sample may make. A sample that makes a third of it makes the relative
 /// variance of the variance a tenth, beyond which MCNP believes no error (X-5 Monte Carlo Team, *MCNP*, LA-UR-03-1987,
@@ -22,7 +22,7 @@ pub struct Reading {
     pub pipeline: String,
     /// Name of its first channel.
     pub channel: String,
-    /// Unit of its values.
+    /// Unit of the total.
     pub unit: String,
     /// The sum of the first channel over all pixels observed, of all samples that the pipeline has.
     pub total: Estimate,
@@ -50,8 +50,9 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// Of a frame, after an observation that has added samples in a time.
-    pub(crate) fn of(frame: &Frame, added: u64, elapsed: Duration) -> Self {
+    /// Of a pipeline, after an observation that has added samples in a time.
+    pub(crate) fn of(pipeline: &dyn Pipeline, added: u64, elapsed: Duration) -> Self {
+        let frame = pipeline.frame();
         let totals: Vec<Estimate> = (0..frame.channels().len()).map(|c| frame.total_of(c)).collect();
         let total = totals.first().copied().unwrap_or(Estimate { value: 0.0, error: f64::INFINITY });
         let brightest = totals.iter().map(|total| total.value.abs()).fold(0.0, f64::max);
@@ -71,7 +72,7 @@ impl Reading {
         Self {
             pipeline: frame.name().to_owned(),
             channel: frame.channels().first().cloned().unwrap_or_default(),
-            unit: frame.unit().to_owned(),
+            unit: pipeline.total_unit().to_owned(),
             total,
             figure_of_merit: if merit.is_nan() { 0.0 } else { merit },
             samples,
@@ -123,7 +124,7 @@ impl fmt::Display for Reading {
         let light = 100.0 * self.contributing as f64 / (self.samples as f64).max(1.0);
         write!(
             f,
-            "{pipeline}{name}: total {total} {unit}, figure of merit {:.3e} 1/s; {light:.1} % of the samples brought \
+            "{pipeline}{name}: {total} {unit} in all, figure of merit {:.3e} 1/s; {light:.1} % of the samples brought \
              light, the largest is {:.1e} of the total",
             self.figure_of_merit, self.largest_share
         )

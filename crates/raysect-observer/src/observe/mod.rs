@@ -151,8 +151,7 @@ impl<'a, S: Sensor> Session<'a, S> {
     fn finish(mut self) -> RenderReport {
         let (added, elapsed) = (self.report.samples, self.meter.elapsed());
         self.report.elapsed = elapsed;
-        self.report.readings =
-            self.pipelines.iter().map(|p| Reading::of(p.frame(), added, elapsed)).collect();
+        self.report.readings = self.pipelines.iter().map(|p| Reading::of(&**p, added, elapsed)).collect();
         self.report
     }
 
