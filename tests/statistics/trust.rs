@@ -22,6 +22,13 @@ fn an_ordinary_picture_is_believed() {
         println!("{report}");
         report.readings.iter().for_each(|reading| println!("{reading:?}"));
         assert!(report.warnings().is_empty(), "{report}");
+        let l = &report.ledger;
+        assert_eq!(l.absorbed + l.escaped + l.killed + l.truncated + l.lost, l.paths);
+        let absorbed = 100.0 * l.absorbed as f64 / l.paths as f64;
+        assert!(
+            report.to_string().contains(&format!("{} ({absorbed:.3} %) absorbed", l.absorbed)),
+            "{report}"
+        );
         let [colours, light] = &report.readings[..] else { panic!("{report}") };
         assert_eq!((colours.total, light.total), (rgb.frame().total(), radiance.frame().total()));
         let seconds = report.elapsed.as_secs_f64();

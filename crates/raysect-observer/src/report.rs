@@ -93,6 +93,12 @@ impl RenderReport {
                 l.inconsistencies
             ));
         }
+        if l.unresolved > 0 {
+            all.push(format!(
+                "{} line integrals through volumes did not reach their tolerance, or met more attenuation than was declared",
+                l.unresolved
+            ));
+        }
         if let Some(c) = self.convergence.filter(|c| !c.reached) {
             all.push(format!(
                 "not converged: {} of {} values are less accurate than asked for",
