@@ -14,7 +14,8 @@ pub use crate::observer::{
 };
 pub use crate::observer::{
     CancelToken, Estimate, Frame, Observer, PinholeCamera, Pipeline, Pipelines, PowerPipeline2D,
-    RadiancePipeline2D, RenderReport, RgbPipeline2D, Scope, Sensor, Statepoint, Stop, minutes, seconds,
+    RadiancePipeline2D, RenderReport, Replay, RgbPipeline2D, Scope, Sensor, Statepoint, Stop, minutes,
+    seconds,
 };
 pub use crate::observer::{
     CcdArray, FibreOptic, MeshCamera, MeshPixel, OpenCvCamera, OrthographicCamera, Pixel, SightLine,
@@ -25,11 +26,11 @@ pub use crate::optical::library::schott;
 pub use crate::optical::{
     AbsorbingSurface, Add, AnisotropicSurfaceEmitter, BlackBody, Blend, Bsdf, Checkerboard, Conductor,
     Context, DebugLight, Dielectric, Dispersion, Facts, FresnelLaw, GaussianLine, HenyeyGreenstein,
-    HomogeneousVolumeEmitter, InhomogeneousVolumeEmitter, InterpolatedSf, Lambert, LightSampling, Masking,
-    Material, Materials, NullMaterial, NumericallyIntegratedSf, Path, PathSettings, PerfectReflectingSurface,
-    ProfileVolume, Ray, Rayleigh, RoughConductor, RoughDielectric, Roughen, Scatter, Sellmeier,
-    SpectralFunction, SpectralTable, Spectrum, SurfaceHit, TopHat, UniformSurfaceEmitter, UniformVolume,
-    UnitySurfaceEmitter, VolumeTransform, WavelengthUnit, WithMaterial, World,
+    HomogeneousVolumeEmitter, InhomogeneousVolumeEmitter, InterpolatedSf, Lambert, LightSampling, LoggedPath,
+    Masking, Material, Materials, NullMaterial, NumericallyIntegratedSf, Path, PathEvent, PathSettings,
+    PerfectReflectingSurface, ProfileVolume, Ray, Rayleigh, RoughConductor, RoughDielectric, Roughen,
+    Scatter, Sellmeier, SpectralFunction, SpectralTable, Spectrum, SurfaceHit, TopHat, UniformSurfaceEmitter,
+    UniformVolume, UnitySurfaceEmitter, VolumeTransform, WavelengthUnit, WithMaterial, World,
 };
 pub use crate::primitive::{
     BiConcave, BiConvex, Cone, Cuboid, Cylinder, Intersect, Meniscus, Mesh, MeshData, Parabola, Place,

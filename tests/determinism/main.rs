@@ -16,5 +16,6 @@ mod panics;
 mod parallel;
 mod passes;
 mod refusals;
+mod replays;
 mod statepoints;
 mod world;

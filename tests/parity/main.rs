@@ -30,6 +30,7 @@ mod values;
 mod controls;
 mod formats;
 mod frames;
+mod migration;
 mod recorded_crossings;
 mod recorded_spectra;
 mod recorded_values;

@@ -38,8 +38,8 @@ pub(crate) struct Kind {
 }
 
 impl Kind {
-    /// Adds an estimate of a known element, after so many samples.
-    fn add(&mut self, estimate: Estimate, known: &Known, samples: u64) {
+    /// Adds an estimate of a known element, and the variance that was found, after so many samples.
+    fn add(&mut self, (estimate, variance): (Estimate, f64), known: &Known, samples: u64) {
         if known.is_dark() {
             // There is nothing to be wrong about.
             assert_eq!(estimate, Estimate { value: 0.0, error: 0.0 });
@@ -49,7 +49,9 @@ impl Kind {
         if known.is_normal_after(samples) {
             self.normal.add(estimate, known.value);
         }
-        self.scatter.add(estimate, known.value, known.variance() / samples as f64);
+        // The mean square of errors is that of differences before they are made longer for skewed samples.
+        let error = (variance / samples as f64).sqrt();
+        self.scatter.add(Estimate { error, ..estimate }, known.value, known.variance() / samples as f64);
     }
 
     /// Adds what others have found.
@@ -76,6 +78,24 @@ impl Stage {
     }
 }
 
+/// A frame and its variances, which take a while.
+struct Found<'a> {
+    frame: &'a Frame,
+    variances: Vec<f64>,
+}
+
+impl<'a> Found<'a> {
+    fn new(frame: &'a Frame) -> Self {
+        Self { frame, variances: frame.variance() }
+    }
+
+    /// An element, and the variance of its samples.
+    fn at(&self, pixel: usize, channel: usize) -> (Estimate, f64) {
+        let place = pixel * self.frame.channels().len() + channel;
+        (self.frame.pixel(pixel, channel), self.variances[place])
+    }
+}
+
 /// Three pipelines that see the same rays.
 struct Picture {
     radiance: RadiancePipeline2D,
@@ -97,12 +117,14 @@ impl Picture {
     /// Compares with the truth; element by element if it is known of elements.
     fn judge(&self, truth: &Truth, samples: u64) -> Stage {
         let mut stage = Stage::default();
+        let frames = [self.radiance.frame(), self.one.frame(), self.every.frame()];
+        let [whole, one, every] = frames.map(Found::new);
         if truth.len() == SIDE * SIDE {
             for (pixel, known) in truth.iter().enumerate() {
-                stage.pixel.add(self.radiance.frame().pixel(pixel, 0), &known[WHOLE], samples);
-                stage.bin.add(self.one.frame().pixel(pixel, 0), &known[BIN], samples);
+                stage.pixel.add(whole.at(pixel, 0), &known[WHOLE], samples);
+                stage.bin.add(one.at(pixel, 0), &known[BIN], samples);
                 for (bin, known) in known[..BINS].iter().enumerate() {
-                    stage.bins.add(self.every.frame().pixel(pixel, bin), known, samples);
+                    stage.bins.add(every.at(pixel, bin), known, samples);
                 }
             }
         }

@@ -53,13 +53,17 @@ impl Moments {
         Self(Frame::new("moments", "1"))
     }
 
-    /// Mean, its error, and skewness of the samples of a pixel in a bin; of the whole spectrum after the last bin.
+    /// Mean, its error, and skewness of the samples of a pixel in a bin; of the whole spectrum after the last bin. The
+    /// error is that without regard to skewness, which third powers have in plenty.
     pub(crate) fn of(&self, pixel: usize, bin: usize) -> (Estimate, f64) {
+        let squared_error = self.0.variance()[pixel * self.0.channels().len() + 3 * bin];
+        let samples = self.0.samples(pixel) as f64;
         let moment = |power: usize| self.0.pixel(pixel, 3 * bin + power);
         let (a, b, c) = (moment(0).value, moment(1).value, moment(2).value);
         let variance = b - a * a;
         let skewness = (c - 3.0 * a * b + 2.0 * a * a * a) / variance.powf(1.5);
-        (moment(0), if variance > 0.0 { skewness } else { 0.0 })
+        let mean = Estimate { error: (squared_error / samples).sqrt(), ..moment(0) };
+        (mean, if variance > 0.0 { skewness } else { 0.0 })
     }
 }
 

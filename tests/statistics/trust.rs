@@ -83,7 +83,7 @@ fn few_bright_samples_are_too_few() {
         // Each bright sample is as bright as any other.
         let share = 1.0 / reading.contributing as f64;
         assert!((reading.largest_share / share - 1.0).abs() < 1e-12, "{reading:?}");
-        assert!((reading.variance_share / share - 1.0).abs() < 0.05, "{reading:?}");
+        assert!((reading.variance_of_variance / share - 1.0).abs() < 0.05, "{reading:?}");
     }
     // Without noise, or with little of it, a few samples are enough.
     for probability in [1.0, 0.5] {
@@ -103,9 +103,9 @@ fn one_sample_that_makes_the_error_is_found() {
         observer.observe(&world, &mut RadiancePipeline::new()).unwrap()
     };
     let early = report(1000);
-    assert!(early.warnings().iter().any(|warning| warning.contains("of its variance")), "{early}");
+    assert!(early.warnings().iter().any(|warning| warning.contains("itself known")), "{early}");
     let reading = &early.readings[0];
-    assert!(reading.contributing == 1000 && reading.variance_share > 0.3, "{reading:?}");
+    assert!(reading.contributing == 1000 && reading.variance_of_variance > 0.3, "{reading:?}");
     let late = report(100_000);
-    assert!(late.warnings().is_empty() && late.readings[0].variance_share < 0.02, "{late}");
+    assert!(late.warnings().is_empty() && late.readings[0].variance_of_variance < 0.02, "{late}");
 }

@@ -1,5 +1,6 @@
 //! Averages that a stop rule ends, of samples of which few are bright.
 
+use raysect::math::Statistics;
 use raysect::observer::RadiancePipeline;
 use raysect::prelude::*;
 
@@ -76,4 +77,39 @@ fn averages_with_short_error_bars_are_not() {
     });
     let averages = Averages::of(&all, 1.0);
     assert!(!averages.holds(), "{averages}");
+}
+
+#[test]
+fn rare_dark_samples_are_not_overlooked() {
+    // A pilot of 32 samples sees no dark one among them in 3 % and 72 % of all seeds.
+    for (probability, seeds) in [(0.9, 200), (0.99, 400)] {
+        let world = lamp_at(5.0, 1.0 / probability);
+        let found = each_seed(1..seeds + 1, |seed| {
+            let mut radiance = RadiancePipeline::new();
+            let observer = glimpse(probability).seed(seed);
+            let report = observer.observe_until(&world, &mut radiance, Stop::relative_error(0.003)).unwrap();
+            assert!(report.convergence.is_some_and(|c| c.reached), "seed {seed}: {report}");
+            radiance.frame().pixel(0, 0)
+        });
+        let mut mean = Statistics::new();
+        found.iter().for_each(|estimate| mean.add(estimate.value));
+        let off = |e: &Estimate| (e.value - 1.0).abs() > 1.96 * e.error;
+        let missed = found.iter().filter(|e| off(e)).count() as f64 / seeds as f64;
+        println!("one in {:<5} dark, to 0.3 %: {mean:?}, {missed} missed", 1.0 / (1.0 - probability));
+        assert!((mean.mean() - 1.0).abs() < 4.0 * mean.error(), "{mean:?}");
+        assert!(missed < 0.1, "{missed}");
+    }
+}
+
+#[test]
+fn samples_that_are_all_alike_are_believed_once_there_are_enough() {
+    for (error, samples) in [(0.003, 578), (0.001, 1733)] {
+        let mut radiance = RadiancePipeline::new();
+        let report = glimpse(1.0)
+            .observe_until(&lamp_at(5.0, 1.0), &mut radiance, Stop::relative_error(error))
+            .unwrap();
+        assert!(report.convergence.is_some_and(|c| c.reached), "{report}");
+        let found = radiance.frame().samples(0);
+        assert!((samples..2 * samples).contains(&found), "{error}: {found}");
+    }
 }

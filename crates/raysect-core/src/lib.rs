@@ -30,6 +30,7 @@
 pub mod accel;
 mod atomic;
 mod bounds;
+mod csv;
 pub mod engine;
 mod error;
 mod intersection;
@@ -43,6 +44,7 @@ mod world;
 pub use accel::Acceleration;
 pub use atomic::write_atomically;
 pub use bounds::{BoundingBox2D, BoundingBox3D, BoundingSphere3D};
+pub use csv::{csv_number, csv_text};
 pub use engine::{Engine, Multicore, Serial};
 pub use error::{CoreError, EngineError};
 pub use intersection::Intersection;

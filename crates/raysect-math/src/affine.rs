@@ -25,6 +25,7 @@ impl Default for AffineMatrix3D {
 
 impl AffineMatrix3D {
     /// The map that changes nothing.
+    #[doc(alias = "NULL_TRANSFORM")]
     pub const IDENTITY: Self = Self(DAffine3::IDENTITY);
 
     /// From four rows of a 4×4 matrix.
@@ -123,6 +124,7 @@ impl AffineMatrix3D {
     }
 
     /// Called on the inverse of a map: the normal transformed by the map itself, not renormalised.
+    #[doc(alias = "transform_with_inverse")]
     #[inline]
     pub fn transform_normal_with_inverse(&self, n: Normal3D) -> Normal3D {
         let n: DVec3 = n.into();

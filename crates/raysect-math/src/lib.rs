@@ -2,6 +2,7 @@
 #![doc = ""]
 
 mod affine;
+mod barycentric;
 mod error;
 pub mod error_free;
 mod frame;
@@ -24,6 +25,7 @@ pub mod units;
 mod vector;
 
 pub use affine::AffineMatrix3D;
+pub use barycentric::{tetrahedron_shares, triangle_shares};
 pub use error::MathError;
 pub use frame::Frame;
 pub use mesh_function::{Discrete2DMesh, Discrete3DMesh, Interpolator2DMesh};
@@ -41,8 +43,8 @@ pub use sampling::sphere::SphereSampler;
 pub use sampling::square::RectangleSampler3D;
 pub use sampling::triangle::TriangleSampler3D;
 pub use sampling::{
-    SphericalRectangleSampler, SphericalTriangleSampler, TargetSphere, TargetedHemisphereSampler,
-    TargetedSphereSampler,
+    SphericalDiskSampler, SphericalRectangleSampler, SphericalTriangleSampler, TargetSphere,
+    TargetedHemisphereSampler, TargetedSphereSampler,
 };
 pub use stats::{BlockStatistics, Statistics, StatisticsArray, format_with_error};
 pub use transform::{

@@ -174,12 +174,48 @@ impl Point2D {
     pub fn distance_to(self, other: Self) -> f64 {
         self.vector_to(other).length()
     }
+
+    /// Both coordinates [m].
+    #[inline]
+    pub const fn to_array(self) -> [f64; 2] {
+        [self.x, self.y]
+    }
+}
+
+impl From<[f64; 2]> for Point2D {
+    #[inline]
+    fn from([x, y]: [f64; 2]) -> Self {
+        Self::new(x, y)
+    }
 }
 
 impl From<Point2D> for [f64; 2] {
     #[inline]
     fn from(p: Point2D) -> Self {
-        [p.x, p.y]
+        p.to_array()
+    }
+}
+
+impl Index<usize> for Point2D {
+    type Output = f64;
+    #[inline]
+    fn index(&self, axis: usize) -> &f64 {
+        match axis {
+            0 => &self.x,
+            1 => &self.y,
+            _ => panic!("axis {axis} of a point in a plane (0 or 1)"),
+        }
+    }
+}
+
+impl IndexMut<usize> for Point2D {
+    #[inline]
+    fn index_mut(&mut self, axis: usize) -> &mut f64 {
+        match axis {
+            0 => &mut self.x,
+            1 => &mut self.y,
+            _ => panic!("axis {axis} of a point in a plane (0 or 1)"),
+        }
     }
 }
 
@@ -202,6 +238,7 @@ impl Sub<Vector2D> for Point2D {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn points_move_along_vectors() {
@@ -211,5 +248,34 @@ mod tests {
         assert_eq!(p.vector_to(q), Vector3D::new(0.0, -2.0, 1.0));
         assert_eq!(Point2D::new(0.0, 0.0).distance_to(Point2D::new(3.0, 4.0)), 5.0);
         assert_eq!([q[0], q[1], q[2]], q.to_array());
+    }
+
+    proptest! {
+        #[test]
+        fn a_vector_to_a_point_leads_there(p in prop::array::uniform3(-1e3..1e3f64), q in prop::array::uniform3(-1e3..1e3f64)) {
+            let (a, b) = (Point3D::from(p), Point3D::from(q));
+            prop_assert!((a + a.vector_to(b)).distance_to(b) < 1e-12 && (b - a.vector_to(b)).distance_to(a) < 1e-12);
+            prop_assert_eq!(a + Normal3D::from(q), a + Vector3D::from(q));
+            prop_assert_eq!(a - Normal3D::from(q), a - Vector3D::from(q));
+            prop_assert_eq!(a.distance_to(b), b.distance_to(a));
+            prop_assert_eq!(a.max_abs(), p.map(f64::abs).into_iter().fold(0.0, f64::max));
+            let (a, b) = (Point2D::new(p[0], p[1]), Point2D::new(q[0], q[1]));
+            prop_assert!((a + a.vector_to(b)).distance_to(b) < 1e-12 && (b - a.vector_to(b)).distance_to(a) < 1e-12);
+        }
+
+        #[test]
+        fn points_are_made_of_their_coordinates(p in prop::array::uniform3(-1e3..1e3f64), axis in 0..3usize, x in -1.0..1.0f64) {
+            let mut space = Point3D::from(p);
+            prop_assert_eq!((space.to_array(), <[f64; 3]>::from(space)), (p, p));
+            prop_assert_eq!(Point3D::from(glam::DVec3::from(space)), space);
+            space[axis] = x;
+            let expected = |i: usize| if i == axis { x } else { p[i] };
+            prop_assert!((0..3).all(|i| space[i] == expected(i)));
+            let mut plane = Point2D::from([p[0], p[1]]);
+            prop_assert_eq!((plane.to_array(), <[f64; 2]>::from(plane)), ([p[0], p[1]], [p[0], p[1]]));
+            plane[axis % 2] = x;
+            let expected = |i: usize| if i == axis % 2 { x } else { p[i] };
+            prop_assert!((0..2).all(|i| plane[i] == expected(i)));
+        }
     }
 }

@@ -24,7 +24,7 @@ const GAUSS: [f64; 4] =
     [0.129_484_966_168_869_7, 0.279_705_391_489_276_64, 0.381_830_050_505_118_9, 0.417_959_183_673_469_4];
 
 /// Integral over one interval by the 15-point rule, and its difference from the 7-point rule.
-fn kronrod(f: &dyn Fn(f64) -> f64, low: f64, high: f64) -> (f64, f64) {
+pub(crate) fn kronrod(f: &dyn Fn(f64) -> f64, low: f64, high: f64) -> (f64, f64) {
     let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
     let (mut fine, mut coarse) = (0.0, 0.0);
     for (i, node) in NODES.iter().enumerate() {

@@ -85,6 +85,7 @@ fn hash(key: StreamKey) -> u64 {
 
 impl Rng {
     /// A generator for the given seed; every seed is good, 0 included.
+    #[doc(alias = "seed")]
     pub fn new(seed: u64) -> Self {
         Self::keyed(StreamKey { seed, ..StreamKey::default() })
     }

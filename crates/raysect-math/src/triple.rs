@@ -201,6 +201,17 @@ macro_rules! direction_arithmetic {
                 }
             }
         }
+        impl IndexMut<usize> for $name {
+            #[inline]
+            fn index_mut(&mut self, axis: usize) -> &mut f64 {
+                match axis {
+                    0 => &mut self.x,
+                    1 => &mut self.y,
+                    2 => &mut self.z,
+                    _ => panic!("axis {axis} of a three-dimensional vector (0, 1 or 2)"),
+                }
+            }
+        }
     };
     (@binary $name:ident, $other:ident) => {
         impl Add<$other> for $name {

@@ -1,4 +1,4 @@
-use std::ops::{Add, AddAssign, Div, Index, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, Neg, Sub, SubAssign};
 
 use crate::triple::direction_arithmetic;
 use crate::{MathError, Normal3D};
@@ -165,6 +165,20 @@ impl Vector2D {
         Ok(Self::new(x / unit, y / unit))
     }
 
+    /// A vector of the same direction with the given length [same unit as the components].
+    ///
+    /// # Errors
+    /// [`MathError::NoDirection`] for a zero vector or one that is not finite.
+    pub fn with_length(self, length: f64) -> Result<Self, MathError> {
+        Ok(self.normalise()? * length)
+    }
+
+    /// Both components.
+    #[inline]
+    pub const fn to_array(self) -> [f64; 2] {
+        [self.x, self.y]
+    }
+
     /// The unit vector perpendicular to this one, turned by +90°: `(−y, x) / length`.
     ///
     /// # Errors
@@ -175,10 +189,40 @@ impl Vector2D {
     }
 }
 
+impl From<[f64; 2]> for Vector2D {
+    #[inline]
+    fn from([x, y]: [f64; 2]) -> Self {
+        Self::new(x, y)
+    }
+}
+
 impl From<Vector2D> for [f64; 2] {
     #[inline]
     fn from(v: Vector2D) -> Self {
-        [v.x, v.y]
+        v.to_array()
+    }
+}
+
+impl Index<usize> for Vector2D {
+    type Output = f64;
+    #[inline]
+    fn index(&self, axis: usize) -> &f64 {
+        match axis {
+            0 => &self.x,
+            1 => &self.y,
+            _ => panic!("axis {axis} of a vector in a plane (0 or 1)"),
+        }
+    }
+}
+
+impl IndexMut<usize> for Vector2D {
+    #[inline]
+    fn index_mut(&mut self, axis: usize) -> &mut f64 {
+        match axis {
+            0 => &mut self.x,
+            1 => &mut self.y,
+            _ => panic!("axis {axis} of a vector in a plane (0 or 1)"),
+        }
     }
 }
 
@@ -231,82 +275,4 @@ impl Div<f64> for Vector2D {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    fn component() -> impl Strategy<Value = f64> {
-        (-1.0..1.0f64, -300..300i32).prop_map(|(m, e)| m * 10f64.powi(e))
-    }
-
-    #[test]
-    fn opposite_and_equal_directions_have_exact_angles() {
-        let v = Vector3D::new(0.1, -0.7, 0.3);
-        assert_eq!(v.angle(v).unwrap(), 0.0);
-        assert_eq!(v.angle(-v).unwrap(), 180.0);
-        assert!(Vector3D::ZERO.angle(v).is_err());
-    }
-
-    #[test]
-    fn slerp_turns_by_the_fraction_of_the_angle() {
-        let (a, b) = (Vector3D::X, Vector3D::new(0.0, 3.0, 0.0));
-        let half = a.slerp(b, 0.5).unwrap();
-        assert!((half.length() - 2.0).abs() < 1e-15);
-        assert!((half.angle(a).unwrap() - 45.0).abs() < 1e-13);
-        let opposite = a.slerp(-a, 0.5).unwrap();
-        assert!((opposite.angle(a).unwrap() - 90.0).abs() < 1e-13);
-        assert!(a.slerp(b, 1.5).is_err());
-    }
-
-    #[test]
-    fn a_plane_vector_turns_left() {
-        assert_eq!(Vector2D::new(2.0, 0.0).orthogonal().unwrap(), Vector2D::new(0.0, 1.0));
-        assert_eq!(Vector2D::new(1.0, 2.0).cross(Vector2D::new(3.0, 5.0)), -1.0);
-    }
-
-    #[test]
-    fn slerp_is_finite_for_parallel_opposite_tiny_and_huge_vectors() {
-        for a in [Vector3D::X, Vector3D::new(0.1, -0.7, 0.3), Vector3D::new(1.0, 1.0, 1.0)] {
-            let o = a.orthogonal().unwrap();
-            for shift in [0.0, 1e-300, 1e-17, 1e-16, 1e-15, 1e-12, 1e-8, 1e-3] {
-                for (sign, scale) in [(1.0, 1.0), (-1.0, 1.0), (1.0, 1e-300), (-1.0, 1e300)] {
-                    let b = (a * sign + o * shift) * scale;
-                    let angle = a.angle(b).unwrap();
-                    for t in [0.0, 1e-9, 0.5, 1.0] {
-                        let v = a.slerp(b, t).unwrap();
-                        assert!(v.is_finite(), "{a:?} {b:?} {t}");
-                        assert!((v.angle(a).unwrap() - t * angle).abs() < 1e-13, "{a:?} {b:?} {t}");
-                        assert!(a.lerp(b, t).unwrap().is_finite());
-                    }
-                }
-            }
-        }
-        for t in [-0.1, 1.1, f64::NAN] {
-            assert!(Vector3D::X.slerp(Vector3D::Y, t).is_err() && Vector3D::X.lerp(Vector3D::Y, t).is_err());
-        }
-        assert!(Vector3D::X.slerp(Vector3D::ZERO, 0.5).is_err());
-    }
-
-    proptest! {
-        #[test]
-        fn unit_vectors_have_unit_length_at_every_scale(x in component(), y in component(), z in component()) {
-            let v = Vector3D::new(x, y, z);
-            prop_assume!(v.max_abs() > 1e-305);
-            let n = v.normalise().unwrap();
-            prop_assert!((n.length() - 1.0).abs() <= 4.0 * f64::EPSILON);
-            prop_assert!(n.dot(v) >= 0.0);
-            let o = v.orthogonal().unwrap();
-            prop_assert!(o.dot(n).abs() <= 4.0 * f64::EPSILON);
-        }
-
-        #[test]
-        fn slerp_is_finite_and_keeps_lengths(
-            a in prop::array::uniform3(-1.0..1.0f64), b in prop::array::uniform3(-1.0..1.0f64), t in 0.0..=1.0f64,
-        ) {
-            let (a, b) = (Vector3D::from(a), Vector3D::from(b));
-            prop_assume!(a.length() > 1e-3 && b.length() > 1e-3);
-            let v = a.slerp(b, t).unwrap();
-            prop_assert!((v.length() - ((1.0 - t) * a.length() + t * b.length())).abs() < 1e-14);
-        }
-    }
-}
+mod tests;

@@ -78,6 +78,33 @@ pub enum ObserverError {
         /// The pixels that there are.
         shape: FrameShape,
     },
+    /// A pixel that there is none of.
+    #[error(
+        "pixel {pixel} of {shape}: pixels are counted from 0, row by row, and must be less than their number"
+    )]
+    NoPixel {
+        /// Its number.
+        pixel: usize,
+        /// The pixels that there are.
+        shape: FrameShape,
+    },
+    /// A pixel that is not observed.
+    #[error("pixel {pixel} is not observed: the mask leaves it out")]
+    MaskedPixel {
+        /// Its number.
+        pixel: usize,
+    },
+    /// A sample that an observation does not take.
+    #[error(
+        "sample {sample} of {samples} a pixel: samples are counted from 0 and must be less than their number; an \
+         observation that was continued has more, which pixel_samples must say"
+    )]
+    NoSample {
+        /// Its number.
+        sample: u64,
+        /// Samples a pixel of the observer.
+        samples: u64,
+    },
     /// A mask or a region of interest leaves nothing.
     #[error("the mask leaves no pixel to observe")]
     NoPixels,

@@ -92,6 +92,7 @@ pub use nonimaging::{
     Fibre, FibreOptic, Line, MeshCamera, MeshPatches, MeshPixel, MeshWhole, Pixel, Rectangle, SightLine,
     TargetedPixel,
 };
+pub use observe::Replay;
 pub use observer::{CancelToken, Observer};
 pub use pipeline::{
     BayerPipeline2D, FunctionalPipeline, Measurement, Pipeline, Pipelines, PowerPipeline, PowerPipeline0D,

@@ -50,6 +50,7 @@ impl CancelToken {
 /// assert_eq!(report.ledger.paths, 16 * 16 * 10);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[doc(alias("Observer0D", "Observer1D", "Observer2D"))]
 #[derive(Clone)]
 pub struct Observer<S: Sensor> {
     sensor: S,
@@ -157,6 +158,7 @@ impl<S: Sensor> Observer<S> {
     /// # Errors
     /// [`ObserverError::PixelCount`] for another number of values than pixels, [`ObserverError::NoPixels`] without any
     /// `true`.
+    #[doc(alias("FullFrameSampler1D", "FullFrameSampler2D"))]
     pub fn mask(mut self, mask: impl Into<Vec<bool>>) -> Result<Self, ObserverError> {
         self.mask = mask.into();
         let (found, expected) = (self.mask.len(), self.sensor.shape().pixels());
@@ -313,6 +315,12 @@ impl<S: Sensor> Observer<S> {
     ///
     /// # Errors
     /// As [`observe`](Self::observe), and [`ObserverError::Stop`] for a rule that cannot work.
+    #[doc(alias(
+        "MonoAdaptiveSampler2D",
+        "RGBAdaptiveSampler2D",
+        "SpectralAdaptiveSampler2D",
+        "render_complete"
+    ))]
     pub fn observe_until(
         &self,
         world: &World,

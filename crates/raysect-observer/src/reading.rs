@@ -4,10 +4,11 @@ use std::time::Duration;
 use crate::stop::CONTRIBUTING;
 use crate::{Estimate, Frame, Pipeline};
 
-/// The share of the variance of a total that one sample may make. A sample that makes a third of it makes the relative
-/// variance of the variance a tenth, beyond which MCNP believes no error (X-5 Monte Carlo Team, *MCNP*, LA-UR-03-1987,
-/// vol. I, ch. 2, § VI, the fifth of its ten checks).
-const THIRD: f64 = 1.0 / 3.0;
+/// The relative variance of the variance beyond which MCNP believes no error (X-5 Monte Carlo Team, *MCNP – Version 5*,
+/// LA-UR-03-1987, ch. 2 § VI, the fifth of its ten checks). Ten equal samples among many dark ones have it, and so has a
+/// single sample that makes a third of the variance. The share of the total that a sample makes tells less: of ten equal
+/// samples each makes a tenth, without any error.
+const UNSURE: f64 = 0.1;
 /// The share of the pixels that may have a firefly: far less than the one in twenty that a 95 % interval leaves out.
 const MANY: f64 = 0.01;
 /// From so many samples on, one that makes half of a pixel is a firefly.
@@ -38,9 +39,10 @@ pub struct Reading {
     /// in a sample of a pixel ([`Frame::largest`]), over the number of samples of that pixel, over the largest absolute
     /// total of any channel.
     pub largest_share: f64,
-    /// The share of the variance of the total that a single sample makes, about 0 … 1: the square of what that sample
-    /// adds to the total beyond the mean of its pixel, over the largest squared error of the total of any channel.
-    pub variance_share: f64,
+    /// The variance of the squared error of the total, relative to its square: Σ Vₚ eₚ⁴ / (Σ eₚ²)² over the pixels, with
+    /// their errors eₚ in the first channel and [`Frame::variance_of_variance`] Vₚ. Below 0.1 the error is known to about
+    /// 15 %; infinite where no error is known.
+    pub variance_of_variance: f64,
     /// In how many pixels, of at least 32 samples, one sample makes more than half of the value. The error of such a
     /// pixel is large, and is right; but about as many pixels again have missed their bright sample, and their errors
     /// know nothing of it.
@@ -56,17 +58,14 @@ impl Reading {
         let totals: Vec<Estimate> = (0..frame.channels().len()).map(|c| frame.total_of(c)).collect();
         let total = totals.first().copied().unwrap_or(Estimate { value: 0.0, error: f64::INFINITY });
         let brightest = totals.iter().map(|total| total.value.abs()).fold(0.0, f64::max);
-        let error = totals.iter().map(|total| total.error).fold(0.0, f64::max);
         let samples = frame.total_samples();
         let seconds = elapsed.as_secs_f64() * samples as f64 / added as f64;
         let merit = 1.0 / (total.relative_error().powi(2) * seconds);
-        let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
-        let (mut largest, mut beyond, mut fireflies) = (0.0, 0.0, 0);
+        let (mut largest, mut fireflies) = (0.0, 0);
         for pixel in frame.observed_pixels() {
             let count = frame.samples(pixel);
             let (sample, mean) = (frame.largest(pixel), mean(frame, pixel));
             largest = f64::max(largest, sample / count.max(1) as f64);
-            beyond = f64::max(beyond, (sample - mean) / count.max(1) as f64);
             fireflies += usize::from(count >= ENOUGH && sample > HALF * mean * count as f64);
         }
         Self {
@@ -77,8 +76,8 @@ impl Reading {
             figure_of_merit: if merit.is_nan() { 0.0 } else { merit },
             samples,
             contributing: frame.observed_pixels().map(|pixel| frame.contributing(pixel)).sum(),
-            largest_share: share(largest, brightest),
-            variance_share: share(beyond * beyond, error * error),
+            largest_share: if brightest > 0.0 { largest / brightest } else { 0.0 },
+            variance_of_variance: variance_of_variance(frame),
             fireflies,
             pixels: frame.observed_pixels().count(),
         }
@@ -93,12 +92,12 @@ impl Reading {
             all.push(format!(
                 "{contributing} samples of '{pipeline}' brought light: too few to know an error by"
             ));
-        } else if noisy && self.variance_share > THIRD {
+        } else if noisy && self.variance_of_variance > UNSURE {
             all.push(format!(
-                "one sample makes {:.2} % of the total of '{pipeline}' and {:.0} % of its variance: others like it may \
-                 be missing, and the error does not know of them",
-                100.0 * self.largest_share,
-                100.0 * self.variance_share
+                "the variance of '{pipeline}' is itself known to {:.0} % only, with one sample that makes {:.2} % of the \
+                 total: others like it may be missing, and the error does not know of them",
+                100.0 * self.variance_of_variance.sqrt(),
+                100.0 * self.largest_share
             ));
         }
         if *fireflies as f64 > MANY * *pixels as f64 && *pixels > 1 {
@@ -108,6 +107,22 @@ impl Reading {
             ));
         }
         all
+    }
+}
+
+/// Of the total of the first channel.
+fn variance_of_variance(frame: &Frame) -> f64 {
+    let (mut fourth, mut second) = (0.0, 0.0);
+    for pixel in frame.observed_pixels() {
+        let variance = frame.pixel(pixel, 0).error.powi(2);
+        fourth += frame.variance_of_variance(pixel) * variance * variance;
+        second += variance;
+    }
+    let ratio = fourth / (second * second);
+    match second {
+        0.0 => 0.0,
+        _ if ratio.is_finite() => ratio,
+        _ => f64::INFINITY,
     }
 }
 

@@ -26,7 +26,13 @@ pub enum Scope {
 /// Whether the error is small enough is decided by *pilot* samples of their own, which are thrown away: an average
 /// that decides about its own end is biased (a rare bright sample ends it late, its absence early). The pilot needs
 /// 30 samples that contribute to each element before it says how many are needed; then that many are taken. Should
-/// their error come out a little too large all the same, they are added to, at most to four times as many.
+/// their error come out a little too large all the same, they are added to, up to four times as many. If that does not
+/// suffice either, the pilot was too small: it goes on, and foresees anew, until it sees no reason for more samples than
+/// were taken.
+///
+/// Samples that are all alike do not show that there are no others: where n of them are, fewer than 3 / n of all may
+/// differ (the rule of three, at 95 %), and if those are dark the average is off by √3 / n of its value. Only if this
+/// is small enough, too, is an error of zero believed: 0.3 % is reached by 578 equal samples, 0.1 % by 1733.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
     relative: Option<f64>,
@@ -48,6 +54,9 @@ pub fn seconds(seconds: f64) -> Duration {
 
 /// What an element needs before its error is believed.
 pub(crate) const CONTRIBUTING: u64 = 30;
+
+/// Relative error below which samples are alike: rounding.
+const ALIKE: f64 = 1e-12;
 
 impl Stop {
     const NEVER: Self =
@@ -138,8 +147,17 @@ impl Element {
         self.contributing == 0 && self.largest > 0.0 && hidden <= self.negligible
     }
 
+    /// How many samples that are all alike it takes to be as accurate as asked for; none if they are not alike, or
+    /// dark.
+    fn alike(&self) -> Option<f64> {
+        let value = self.estimate.value.abs();
+        let alike = value > 0.0 && self.estimate.error <= ALIKE * value;
+        alike.then(|| 3f64.sqrt() * value / self.target)
+    }
+
     pub(crate) fn is_converged(&self) -> bool {
-        let known = self.contributing >= CONTRIBUTING && self.estimate.error <= self.target;
+        let shown = self.alike().is_none_or(|needed| self.contributing as f64 >= needed);
+        let known = self.contributing >= CONTRIBUTING && self.estimate.error <= self.target && shown;
         known || self.is_negligible()
     }
 
@@ -151,8 +169,12 @@ impl Element {
         if self.contributing < CONTRIBUTING {
             return None;
         }
+        if let Some(needed) = self.alike() {
+            let share = self.contributing as f64 / self.samples.max(1) as f64;
+            return Some((needed / share).max(self.samples as f64));
+        }
         if self.estimate.error == 0.0 {
-            // Dark in this channel, or without noise.
+            // Dark in this channel.
             return Some(self.samples as f64);
         }
         if self.target <= 0.0 {

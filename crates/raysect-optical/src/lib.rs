@@ -107,7 +107,10 @@ pub use material::{
     RoughDielectric, Roughen, Scatter, Structure, SurfaceHit, UniformSurfaceEmitter, UniformVolume,
     UnitySurfaceEmitter, VolumeTransform,
 };
-pub use path::{Dispersion, LEDGER_NUMBERS, Ledger, LightSampling, Path, PathSettings};
+pub use path::{
+    Dispersion, LEDGER_NUMBERS, Ledger, LightSampling, LoggedPath, Path, PathEvent, PathSettings, PathVertex,
+    VertexHit,
+};
 pub use ray::{Ray, SampledSpectrum};
 pub use register::{MaterialRegistry, OpticalEntry, SavedScene, register};
 pub use slice::{Slice, Slicing, SpectralTable, Table};

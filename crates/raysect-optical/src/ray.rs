@@ -1,6 +1,6 @@
 use raysect_math::{MathError, Point3D, Rng, StreamKey, Vector3D};
 
-use crate::{OpticalError, Path, PathSettings, Slicing, Spectrum, World};
+use crate::{LoggedPath, OpticalError, Path, PathSettings, Scene, Slice, Slicing, Spectrum, World};
 
 /// A single ray that asks for the spectrum arriving at its origin, without any camera.
 ///
@@ -88,23 +88,45 @@ impl Ray {
     /// As [`trace`](Self::trace), and [`OpticalError::Math`] for no paths.
     pub fn sample(&self, world: &World, count: u64) -> Result<SampledSpectrum, OpticalError> {
         MathError::check(count >= 1, count as f64, "number of paths", "", "1 or more")?;
-        self.geometry.check()?;
-        let scene = world.scene()?;
-        let slices = Slicing::new(self.min, self.max, self.bins, 1)?.slices();
+        let (scene, slices) = self.prepare(world)?;
         let slice = &slices[0];
-        for instance in &scene.instances {
-            instance.attached.material().check(slice)?;
-        }
         let mut path = Path::new(scene, slice, &self.settings);
         let mut bins = vec![raysect_math::Statistics::new(); self.bins];
         let mut total = raysect_math::Statistics::new();
         for sample in 0..count {
-            let rng = Rng::keyed(StreamKey { seed: self.seed, sample, ..StreamKey::default() });
-            let radiance = path.follow(&self.geometry, rng);
+            let radiance = path.follow(&self.geometry, self.rng(sample));
             bins.iter_mut().zip(radiance).for_each(|(s, r)| s.add(*r));
             total.add(radiance.iter().sum::<f64>() * slice.bin_width());
         }
         let mean = Spectrum::from_samples(self.min, self.max, bins.iter().map(|s| s.mean()).collect())?;
         Ok(SampledSpectrum { mean, error: bins.iter().map(|s| s.error()).collect(), total, samples: count })
+    }
+
+    /// Follows one of the paths of [`sample`](Self::sample) again, by its number, and notes all that happens to it; number
+    /// 0 is that of [`trace`](Self::trace).
+    ///
+    /// # Errors
+    /// As [`trace`](Self::trace).
+    #[doc(alias("LoggedRay", "path_vertices", "ray_count"))]
+    pub fn replay(&self, world: &World, sample: u64) -> Result<LoggedPath, OpticalError> {
+        let (scene, slices) = self.prepare(world)?;
+        let mut path = Path::new(scene, &slices[0], &self.settings);
+        Ok(path.follow_logged(&self.geometry, self.rng(sample)).with_names(world))
+    }
+
+    /// The random numbers of a path.
+    fn rng(&self, sample: u64) -> Rng {
+        Rng::keyed(StreamKey { seed: self.seed, sample, ..StreamKey::default() })
+    }
+
+    /// Scene and the one slice of all bins, if paths can be followed with them.
+    fn prepare<'w>(&self, world: &'w World) -> Result<(&'w Scene, Vec<Slice>), OpticalError> {
+        self.geometry.check()?;
+        let scene = world.scene()?;
+        let slices = Slicing::new(self.min, self.max, self.bins, 1)?.slices();
+        for instance in &scene.instances {
+            instance.attached.material().check(&slices[0])?;
+        }
+        Ok((scene, slices))
     }
 }

@@ -1,3 +1,6 @@
+mod faces;
+
+use faces::Faces;
 use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{
     BoundingBox3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch, Surface, SurfaceSample,
@@ -28,6 +31,8 @@ pub struct Cuboid {
     centre: [f64; 3],
     /// Of a face across each axis [m²].
     areas: [f64; 3],
+    /// Square of the distance within which it is near, for what samples it as a lamp [m²].
+    near: f64,
 }
 
 impl Default for Cuboid {
@@ -78,7 +83,8 @@ impl Cuboid {
         let extent = lower.vector_to(upper);
         let centre = [0, 1, 2].map(|a| 0.5 * lower[a] + 0.5 * upper[a]);
         let areas = [extent.y * extent.z, extent.z * extent.x, extent.x * extent.y];
-        Self { lower, upper, sheet, centre, areas }
+        let longest = faces::NEAR * extent.max_abs();
+        Self { lower, upper, sheet, centre, areas, near: longest * longest }
     }
 
     /// Of given extents along the axes, centred on the origin [m].
@@ -165,28 +171,6 @@ impl Cuboid {
             && (axis == 2 || (z >= low.z && z <= high.z));
         within.then(|| Self::crossing(t, face_number(axis, d[axis] < 0.0), false))
     }
-
-    /// The face across each axis that is visible from a point, with the weight of its choice: the solid angle that
-    /// it would subtend if it were small; and the sum of the weights.
-    #[inline]
-    fn visible(&self, from: Point3D) -> ([(f64, bool); 3], f64) {
-        let (from, low, high) = (from.to_array(), self.lower.to_array(), self.upper.to_array());
-        let sides: [(bool, bool); 3] = std::array::from_fn(|a| (from[a] > high[a], from[a] < low[a]));
-        if sides.iter().filter(|s| s.0 || s.1).count() == 1 {
-            // The only visible face needs no weight.
-            return (sides.map(|(upper, lower)| (if upper || lower { 1.0 } else { 0.0 }, upper)), 1.0);
-        }
-        let mut faces = [(0.0, false); 3];
-        for (axis, (upper, lower)) in sides.into_iter().enumerate() {
-            if upper || lower {
-                let mut offset: [f64; 3] = std::array::from_fn(|a| from[a] - self.centre[a]);
-                offset[axis] = from[axis] - if upper { high[axis] } else { low[axis] };
-                let squared = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
-                faces[axis] = (self.areas[axis] * offset[axis].abs() / (squared * squared.sqrt()), upper);
-            }
-        }
-        (faces, faces[0].0 + faces[1].0 + faces[2].0)
-    }
 }
 
 impl Primitive for Cuboid {
@@ -258,34 +242,15 @@ impl Primitive for Cuboid {
     }
 
     fn sample_surface(&self, from: Point3D, u: [f64; 3]) -> Option<SurfaceSample> {
-        let (faces, total) = self.visible(from);
-        let mut rest = u[0] * total;
-        let chosen = (0..3).filter(|&a| faces[a].0 > 0.0).find(|&a| {
-            rest -= faces[a].0;
-            rest <= 0.0
-        });
-        let axis = chosen.or_else(|| (0..3).rfind(|&a| faces[a].0 > 0.0))?;
-        let (weight, upper) = faces[axis];
-        let (low, high) = (self.lower.to_array(), self.upper.to_array());
-        let mut point = [0.0; 3];
-        point[axis] = if upper { high[axis] } else { low[axis] };
-        for (i, u) in [((axis + 1) % 3, u[1]), ((axis + 2) % 3, u[2])] {
-            point[i] = low[i] + u * (high[i] - low[i]);
-        }
-        let (point, area) = (Point3D::from(point), self.areas[axis]);
-        let feature = Feature { face: face_number(axis, upper), ..Feature::default() };
-        let normal = Self::normal(axis, upper);
-        Some(SurfaceSample { point, normal, feature, density: weight / total / area })
+        let place = Faces::of(self, from).sample(self, from, u)?;
+        let feature = Feature { face: face_number(place.axis, place.upper), ..Feature::default() };
+        let normal = Self::normal(place.axis, place.upper);
+        Some(SurfaceSample { point: place.point, normal, feature, density: place.density })
     }
 
-    fn surface_density(&self, from: Point3D, _: Point3D, feature: Feature) -> f64 {
+    fn surface_density(&self, from: Point3D, point: Point3D, feature: Feature) -> f64 {
         let (axis, upper) = ((feature.face / 2) as usize, feature.face % 2 == 1);
-        let (faces, total) = self.visible(from);
-        let (weight, visible_side) = faces[axis];
-        if weight == 0.0 || upper != visible_side {
-            return 0.0;
-        }
-        weight / total / self.areas[axis]
+        Faces::of(self, from).density(self, from, point, axis, upper)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Functions on a mesh of triangles in the plane, with one value outside.
 
+use raysect::math::function::Function;
 use raysect::math::{Discrete2DMesh, Interpolator2DMesh, MathError, Point2D};
 
 use super::grid::numbers_of;
@@ -27,8 +28,8 @@ pub(crate) fn compare(section: &Section<'_>, report: &mut Report) -> Result<(), 
         Interpolator2DMesh::new(&*vertices, &*triangles, by_vertex).map_err(text)?.with_default(outside);
     let discrete =
         Discrete2DMesh::new(&*vertices, &*triangles, by_triangle).map_err(text)?.with_default(outside);
-    let linear: Result<Vec<f64>, _> = at.iter().map(|&[x, y]| linear.evaluate(x, y)).collect();
-    let discrete: Result<Vec<f64>, _> = at.iter().map(|&[x, y]| discrete.evaluate(x, y)).collect();
+    let linear: Result<Vec<f64>, _> = at.iter().map(|&[x, y]| linear.checked((x, y))).collect();
+    let discrete: Result<Vec<f64>, _> = at.iter().map(|&[x, y]| discrete.checked((x, y))).collect();
     for (name, ours) in [("linear", linear), ("discrete", discrete)] {
         let mut finding = section.finding(name);
         compare_group(&mut finding, name, &ours.map_err(text)?, &numbers_of(content, name)?, tolerance)?;

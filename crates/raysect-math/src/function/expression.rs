@@ -34,16 +34,19 @@ pub fn function<T>(function: T) -> Expression<T> {
 }
 
 /// A closure of one variable as an [`Expression`].
+#[doc(alias = "autowrap_function1d")]
 pub fn function1d<V, F: Fn(f64) -> V>(function: F) -> Expression<F> {
     Expression(function)
 }
 
 /// A closure of two variables as an [`Expression`].
+#[doc(alias = "autowrap_function2d")]
 pub fn function2d<V, F: Fn(f64, f64) -> V>(function: F) -> Expression<F> {
     Expression(function)
 }
 
 /// A closure of three variables as an [`Expression`].
+#[doc(alias = "autowrap_function3d")]
 pub fn function3d<V, F: Fn(f64, f64, f64) -> V>(function: F) -> Expression<F> {
     Expression(function)
 }

@@ -90,6 +90,7 @@ mod of;
 pub mod operator;
 mod place;
 mod sample;
+mod structure;
 #[cfg(test)]
 mod tests;
 mod value;
@@ -111,4 +112,5 @@ pub use mapping::{
 pub use of::Of;
 pub use place::Place;
 pub use sample::{GridAxis, GridSamples, sample_path, sample_points, sample1d, sample2d, sample3d};
+pub use structure::{Structured2D, Structured3D};
 pub use value::Value;

@@ -1,21 +1,24 @@
 use std::sync::Arc;
 
-use super::field::Field;
+use super::field::{Field, found};
 use super::triangles::Triangles;
+use crate::function::{Function, Structured2D};
 use crate::{MathError, Point2D};
 
-/// A function that is constant on each triangle of a mesh in a plane.
+/// A [`Function`] that is constant on each triangle of a mesh in a plane.
 ///
 /// Where triangles overlap, or at the edge between two, one of them gives the value: the same one each time.
 ///
 /// ```
+/// use raysect_math::function::{Arg, Function};
 /// use raysect_math::{Discrete2DMesh, Point2D};
 /// let corner = |x: f64, y: f64| Point2D::new(x, y);
 /// let square = vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
 /// let f = Discrete2DMesh::new(square, vec![[0, 1, 2], [0, 2, 3]], vec![5.0, 7.0])?;
-/// assert_eq!((f.evaluate(0.9, 0.1)?, f.evaluate(0.1, 0.9)?), (5.0, 7.0));
-/// assert!(f.evaluate(1.1, 0.5).is_err());
-/// assert_eq!(f.with_default(-1.0).evaluate(1.1, 0.5)?, -1.0);
+/// assert_eq!((f.evaluate((0.9, 0.1)), f.evaluate((0.1, 0.9))), (5.0, 7.0));
+/// assert!(f.evaluate((1.1, 0.5)).is_nan() && f.checked((1.1, 0.5)).is_err());
+/// let f = f.with_default(-1.0);
+/// assert_eq!((2.0 * Arg::X + f).evaluate((1.5, 0.5)), 2.0);
 /// # Ok::<(), raysect_math::MathError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -51,21 +54,44 @@ impl Discrete2DMesh {
     }
 
     /// The same function, with a value outside of the mesh. A clone of it shares mesh and values.
+    #[doc(alias("default_value", "limit"))]
     pub fn with_default(mut self, value: f64) -> Self {
         self.field.default = Some(value);
         self
     }
 
-    /// The value at a point [m].
-    ///
-    /// # Errors
-    /// [`MathError::OutsideMesh`] outside of the mesh if there is no default value, and at NaN.
     #[inline]
-    pub fn evaluate(&self, x: f64, y: f64) -> Result<f64, MathError> {
-        match self.triangles.find(x, y) {
-            Some((triangle, _)) => Ok(self.field.value(triangle)),
-            None => self.field.outside(&[x, y]),
+    fn find(&self, at: (f64, f64)) -> Option<f64> {
+        match self.triangles.find(at.0, at.1) {
+            Some((triangle, _)) => Some(self.field.value(triangle)),
+            None => self.field.outside(&[at.0, at.1]),
         }
+    }
+}
+
+impl Function<(f64, f64)> for Discrete2DMesh {
+    type Value = f64;
+
+    /// The value at a point [m]: NaN outside of the mesh if there is no default value, and at NaN.
+    #[inline]
+    fn evaluate(&self, at: (f64, f64)) -> f64 {
+        self.find(at).unwrap_or(f64::NAN)
+    }
+
+    /// As [`evaluate`](Function::evaluate), with [`MathError::OutsideMesh`] in place of NaN.
+    fn checked(&self, at: (f64, f64)) -> Result<f64, MathError> {
+        found(at, self.find(at))
+    }
+}
+
+impl Structured2D for Discrete2DMesh {
+    /// The shortest height of a triangle.
+    fn length_scale(&self) -> f64 {
+        self.triangles.shortest_height()
+    }
+
+    fn each_edge(&self, each: &mut dyn FnMut([f64; 2], [f64; 2])) {
+        self.triangles.each_edge(each);
     }
 }
 
@@ -81,14 +107,14 @@ mod tests {
             Discrete2DMesh::new(saved.vertices.clone(), saved.triangles.clone(), saved.of_triangles.clone());
         let mesh = mesh.unwrap().with_default(-1.0);
         for [x, y, _, expected] in &saved.at {
-            assert_eq!(mesh.evaluate(*x, *y).unwrap(), *expected, "{x} {y}");
+            assert_eq!(mesh.checked((*x, *y)).unwrap(), *expected, "{x} {y}");
         }
         // Negative control: values in another order do not.
         let mut turned = saved.of_triangles.clone();
         turned.rotate_left(1);
         let other = mesh.instance(turned).unwrap().with_default(-1.0);
         assert!(
-            saved.at.iter().any(|[x, y, _, expected]| !close(other.evaluate(*x, *y).unwrap(), *expected))
+            saved.at.iter().any(|[x, y, _, expected]| !close(other.checked((*x, *y)).unwrap(), *expected))
         );
     }
 
@@ -101,7 +127,7 @@ mod tests {
         let mesh = Discrete2DMesh::new(vertices.clone(), triangles.clone(), values).unwrap();
         let mut found = 0;
         for (point, triangle) in on_edges(&vertices, &triangles, 100_000) {
-            let value = mesh.evaluate(point.x, point.y);
+            let value = mesh.checked((point.x, point.y));
             // The triangle itself or one that shares a vertex with it.
             let neighbour = triangles[value.unwrap() as usize];
             assert!(neighbour.iter().any(|v| triangles[triangle].contains(v)), "{point:?}");
@@ -109,7 +135,7 @@ mod tests {
         }
         assert_eq!(found, 100_000);
         for p in vertices {
-            assert!(mesh.evaluate(p.x, p.y).is_ok(), "{p:?}");
+            assert!(mesh.checked((p.x, p.y)).is_ok(), "{p:?}");
         }
     }
 
@@ -118,9 +144,9 @@ mod tests {
         let p = Point2D::new;
         let vertices = vec![p(0.0, 0.0), p(1.0, 0.0), p(0.5, 1e-12), p(0.5, -1.0)];
         let mesh = Discrete2DMesh::new(vertices, vec![[0, 1, 2], [0, 1, 3]], vec![1.0, 2.0]).unwrap();
-        assert_eq!(mesh.evaluate(0.5, 5e-13).unwrap(), 1.0);
-        assert_eq!(mesh.evaluate(0.5, -0.5).unwrap(), 2.0);
-        assert!(mesh.evaluate(0.5, 2e-12).is_err() && mesh.evaluate(0.25, 6e-13).is_err());
+        assert_eq!(mesh.checked((0.5, 5e-13)).unwrap(), 1.0);
+        assert_eq!(mesh.checked((0.5, -0.5)).unwrap(), 2.0);
+        assert!(mesh.checked((0.5, 2e-12)).is_err() && mesh.checked((0.25, 6e-13)).is_err());
     }
 
     #[test]
@@ -130,10 +156,10 @@ mod tests {
         let first = Discrete2DMesh::new(vertices, triangles, vec![1.0; count]).unwrap();
         let second = first.instance(vec![2.0; count]).unwrap().with_default(9.0);
         assert!(Arc::ptr_eq(&first.triangles, &second.triangles));
-        assert_eq!((first.evaluate(0.5, 0.5), second.evaluate(0.5, 0.5)), (Ok(1.0), Ok(2.0)));
-        assert_eq!(second.evaluate(f64::INFINITY, 0.5), Ok(9.0));
-        assert!(second.evaluate(f64::NAN, 0.5).is_err() && second.evaluate(0.5, f64::NAN).is_err());
-        let message = first.evaluate(-1.0, 0.5).unwrap_err().to_string();
+        assert_eq!((first.checked((0.5, 0.5)), second.checked((0.5, 0.5))), (Ok(1.0), Ok(2.0)));
+        assert_eq!(second.checked((f64::INFINITY, 0.5)), Ok(9.0));
+        assert!(second.checked((f64::NAN, 0.5)).is_err() && second.checked((0.5, f64::NAN)).is_err());
+        let message = first.checked((-1.0, 0.5)).unwrap_err().to_string();
         assert_eq!(message, "[-1.0, 0.5] m lies outside of the mesh, and the function is limited to it");
     }
 

@@ -1,21 +1,23 @@
 use std::sync::Arc;
 
-use super::field::Field;
+use super::field::{Field, found};
 use super::tetrahedra::Tetrahedra;
-use crate::{MathError, Point3D};
+use crate::function::{Function, Structured3D};
+use crate::{MathError, Point3D, Vector3D};
 
-/// A function that is constant on each tetrahedron of a mesh in space.
+/// A [`Function`] that is constant on each tetrahedron of a mesh in space.
 ///
 /// Where tetrahedra overlap, or at the face between two, one of them gives the value: the same one each time.
 ///
 /// ```
+/// use raysect_math::function::Function;
 /// use raysect_math::{Discrete3DMesh, Point3D};
 /// let vertices =
 ///     vec![Point3D::ORIGIN, Point3D::new(1.0, 0.0, 0.0), Point3D::new(0.0, 1.0, 0.0), Point3D::new(0.0, 0.0, 1.0)];
 /// let f = Discrete3DMesh::new(vertices, vec![[0, 1, 2, 3]], vec![5.0])?;
-/// assert_eq!(f.evaluate(0.2, 0.2, 0.2)?, 5.0);
-/// assert!(f.evaluate(0.4, 0.4, 0.4).is_err());
-/// assert_eq!(f.with_default(0.0).evaluate(0.4, 0.4, 0.4)?, 0.0);
+/// assert_eq!(f.evaluate((0.2, 0.2, 0.2)), 5.0);
+/// assert!(f.evaluate((0.4, 0.4, 0.4)).is_nan() && f.checked((0.4, 0.4, 0.4)).is_err());
+/// assert_eq!(f.with_default(0.0).evaluate((0.4, 0.4, 0.4)), 0.0);
 /// # Ok::<(), raysect_math::MathError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -51,21 +53,44 @@ impl Discrete3DMesh {
     }
 
     /// The same function, with a value outside of the mesh. A clone of it shares mesh and values.
+    #[doc(alias("default_value", "limit"))]
     pub fn with_default(mut self, value: f64) -> Self {
         self.field.default = Some(value);
         self
     }
 
-    /// The value at a point [m].
-    ///
-    /// # Errors
-    /// [`MathError::OutsideMesh`] outside of the mesh if there is no default value, and at NaN.
     #[inline]
-    pub fn evaluate(&self, x: f64, y: f64, z: f64) -> Result<f64, MathError> {
-        match self.tetrahedra.find(Point3D::new(x, y, z)) {
-            Some(tetrahedron) => Ok(self.field.value(tetrahedron)),
-            None => self.field.outside(&[x, y, z]),
+    fn find(&self, at: (f64, f64, f64)) -> Option<f64> {
+        match self.tetrahedra.find(Point3D::new(at.0, at.1, at.2)) {
+            Some(tetrahedron) => Some(self.field.value(tetrahedron)),
+            None => self.field.outside(&[at.0, at.1, at.2]),
         }
+    }
+}
+
+impl Function<(f64, f64, f64)> for Discrete3DMesh {
+    type Value = f64;
+
+    /// The value at a point [m]: NaN outside of the mesh if there is no default value, and at NaN.
+    #[inline]
+    fn evaluate(&self, at: (f64, f64, f64)) -> f64 {
+        self.find(at).unwrap_or(f64::NAN)
+    }
+
+    /// As [`evaluate`](Function::evaluate), with [`MathError::OutsideMesh`] in place of NaN.
+    fn checked(&self, at: (f64, f64, f64)) -> Result<f64, MathError> {
+        found(at, self.find(at))
+    }
+}
+
+impl Structured3D for Discrete3DMesh {
+    /// The shortest height of a tetrahedron.
+    fn length_scale(&self) -> f64 {
+        self.tetrahedra.shortest_height()
+    }
+
+    fn add_breaks(&self, origin: Point3D, direction: Vector3D, out: &mut Vec<f64>) {
+        self.tetrahedra.add_breaks(origin, direction, out);
     }
 }
 
@@ -92,17 +117,17 @@ mod tests {
             let on_face = on_edge + on_edge.vector_to(c) * t;
             let within = on_face + on_face.vector_to(d) * rng.range(0.01, 0.99);
             for p in [on_edge, on_face] {
-                let found = tetrahedra[mesh.evaluate(p.x, p.y, p.z).unwrap() as usize];
+                let found = tetrahedra[mesh.checked((p.x, p.y, p.z)).unwrap() as usize];
                 assert!(found.iter().any(|v| tetrahedra[i % tetrahedra.len()].contains(v)), "{p:?}");
             }
             // Negative control of the places: inside, it is the tetrahedron itself.
-            assert_eq!(mesh.evaluate(within.x, within.y, within.z), Ok((i % tetrahedra.len()) as f64));
+            assert_eq!(mesh.checked((within.x, within.y, within.z)), Ok((i % tetrahedra.len()) as f64));
         }
         for p in vertices {
-            assert!(mesh.evaluate(p.x, p.y, p.z).is_ok(), "{p:?}");
+            assert!(mesh.checked((p.x, p.y, p.z)).is_ok(), "{p:?}");
         }
         let outside = turn * Point3D::new(99.999_999, 100.5, 100.5);
-        assert!(mesh.evaluate(outside.x, outside.y, outside.z).is_err());
+        assert!(mesh.checked((outside.x, outside.y, outside.z)).is_err());
     }
 
     #[test]
@@ -112,9 +137,9 @@ mod tests {
         let first = Discrete3DMesh::new(vertices.clone(), tetrahedra, vec![1.0; count]).unwrap();
         let second = first.instance(vec![2.0; count]).unwrap().with_default(-1.0);
         assert!(Arc::ptr_eq(&first.tetrahedra, &second.tetrahedra));
-        assert_eq!((first.evaluate(0.5, 0.4, 0.3), second.evaluate(0.5, 0.4, 0.3)), (Ok(1.0), Ok(2.0)));
-        assert_eq!(second.evaluate(0.5, 0.4, 3.0), Ok(-1.0));
-        assert!(second.evaluate(0.5, f64::NAN, 3.0).is_err());
+        assert_eq!((first.checked((0.5, 0.4, 0.3)), second.checked((0.5, 0.4, 0.3))), (Ok(1.0), Ok(2.0)));
+        assert_eq!(second.checked((0.5, 0.4, 3.0)), Ok(-1.0));
+        assert!(second.checked((0.5, f64::NAN, 3.0)).is_err());
         let text = |tetrahedra: Vec<[u32; 4]>| {
             Discrete3DMesh::new(vertices.clone(), tetrahedra, vec![1.0]).unwrap_err().to_string()
         };

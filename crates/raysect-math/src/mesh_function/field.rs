@@ -1,6 +1,7 @@
 use std::sync::Arc;
 
 use crate::MathError;
+use crate::function::Place;
 
 /// The values on a mesh, and what holds outside of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,10 +31,12 @@ impl Field {
 
     /// What holds at a point that no element contains. There is nothing at NaN.
     #[cold]
-    pub(super) fn outside(&self, at: &[f64]) -> Result<f64, MathError> {
-        match self.default {
-            Some(value) if !at.iter().any(|x| x.is_nan()) => Ok(value),
-            _ => Err(MathError::OutsideMesh { at: at.to_vec() }),
-        }
+    pub(super) fn outside(&self, at: &[f64]) -> Option<f64> {
+        self.default.filter(|_| !at.iter().any(|x| x.is_nan()))
     }
+}
+
+/// The value at a point, or the error that there is none.
+pub(super) fn found<P: Place>(at: P, value: Option<f64>) -> Result<f64, MathError> {
+    value.ok_or_else(|| MathError::OutsideMesh { at: at.coordinates() })
 }

@@ -1,23 +1,25 @@
 use std::sync::Arc;
 
-use super::field::Field;
+use super::field::{Field, found};
 use super::triangles::Triangles;
+use crate::function::{Function, Structured2D};
 use crate::{MathError, Point2D};
 
-/// A function that is linear on each triangle of a mesh in a plane, between values at the vertices.
+/// A [`Function`] that is linear on each triangle of a mesh in a plane, between values at the vertices.
 ///
 /// Where triangles share their edges it is continuous, and it never leaves the range of the three values around a point.
 ///
 /// ```
+/// use raysect_math::function::Function;
 /// use raysect_math::{Interpolator2DMesh, Point2D};
 /// let corner = |x: f64, y: f64| Point2D::new(x, y);
 /// let square = vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
 /// let f = Interpolator2DMesh::new(square, vec![[0, 1, 2], [0, 2, 3]], vec![0.0, 1.0, 3.0, 2.0])?;
-/// assert_eq!((f.evaluate(0.5, 0.25)?, f.evaluate(0.0, 0.5)?), (1.0, 1.0));
-/// assert!(f.evaluate(1.1, 0.5).is_err());
+/// assert_eq!((f.evaluate((0.5, 0.25)), f.evaluate((0.0, 0.5))), (1.0, 1.0));
+/// assert!(f.evaluate((1.1, 0.5)).is_nan() && f.checked((1.1, 0.5)).is_err());
 /// // Other values on the same mesh, and a value outside.
 /// let g = f.instance(vec![4.0; 4])?.with_default(0.0);
-/// assert_eq!((g.evaluate(0.5, 0.25)?, g.evaluate(1.1, 0.5)?), (4.0, 0.0));
+/// assert_eq!((g.evaluate((0.5, 0.25)), g.evaluate((1.1, 0.5))), (4.0, 0.0));
 /// # Ok::<(), raysect_math::MathError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -53,24 +55,47 @@ impl Interpolator2DMesh {
     }
 
     /// The same function, with a value outside of the mesh. A clone of it shares mesh and values.
+    #[doc(alias("default_value", "limit"))]
     pub fn with_default(mut self, value: f64) -> Self {
         self.field.default = Some(value);
         self
     }
 
-    /// The value at a point [m].
-    ///
-    /// # Errors
-    /// [`MathError::OutsideMesh`] outside of the mesh if there is no default value, and at NaN.
     #[inline]
-    pub fn evaluate(&self, x: f64, y: f64) -> Result<f64, MathError> {
-        match self.triangles.find(x, y) {
+    fn find(&self, at: (f64, f64)) -> Option<f64> {
+        match self.triangles.find(at.0, at.1) {
             Some((triangle, [u, v, w])) => {
                 let [a, b, c] = self.triangles.corners(triangle).map(|vertex| self.field.value(vertex));
-                Ok(a * u + b * v + c * w)
+                Some(a * u + b * v + c * w)
             }
-            None => self.field.outside(&[x, y]),
+            None => self.field.outside(&[at.0, at.1]),
         }
+    }
+}
+
+impl Function<(f64, f64)> for Interpolator2DMesh {
+    type Value = f64;
+
+    /// The value at a point [m]: NaN outside of the mesh if there is no default value, and at NaN.
+    #[inline]
+    fn evaluate(&self, at: (f64, f64)) -> f64 {
+        self.find(at).unwrap_or(f64::NAN)
+    }
+
+    /// As [`evaluate`](Function::evaluate), with [`MathError::OutsideMesh`] in place of NaN.
+    fn checked(&self, at: (f64, f64)) -> Result<f64, MathError> {
+        found(at, self.find(at))
+    }
+}
+
+impl Structured2D for Interpolator2DMesh {
+    /// The shortest height of a triangle.
+    fn length_scale(&self) -> f64 {
+        self.triangles.shortest_height()
+    }
+
+    fn each_edge(&self, each: &mut dyn FnMut([f64; 2], [f64; 2])) {
+        self.triangles.each_edge(each);
     }
 }
 
@@ -89,13 +114,13 @@ mod tests {
         );
         let mesh = mesh.unwrap().with_default(-1.0);
         for [x, y, expected, _] in &saved.at {
-            assert!(close(mesh.evaluate(*x, *y).unwrap(), *expected), "{x} {y}");
+            assert!(close(mesh.checked((*x, *y)).unwrap(), *expected), "{x} {y}");
         }
         // Negative control: values a millionth larger do not.
         let larger: Vec<f64> = saved.of_vertices.iter().map(|v| v * (1.0 + 1e-6)).collect();
         let other = mesh.instance(larger).unwrap().with_default(-1.0);
         assert!(
-            saved.at.iter().any(|[x, y, expected, _]| !close(other.evaluate(*x, *y).unwrap(), *expected))
+            saved.at.iter().any(|[x, y, expected, _]| !close(other.checked((*x, *y)).unwrap(), *expected))
         );
     }
 
@@ -107,11 +132,11 @@ mod tests {
         let values: Vec<f64> = vertices.iter().map(|&p| f(p)).collect();
         let mesh = Interpolator2DMesh::new(vertices.clone(), triangles.clone(), values).unwrap();
         for (point, _) in on_edges(&vertices, &triangles, 100_000) {
-            let error = mesh.evaluate(point.x, point.y).unwrap() - f(point);
+            let error = mesh.checked((point.x, point.y)).unwrap() - f(point);
             assert!(error.abs() < 1e-11, "{point:?} {error}");
         }
         for p in vertices {
-            assert!((mesh.evaluate(p.x, p.y).unwrap() - f(p)).abs() < 1e-11, "{p:?}");
+            assert!((mesh.checked((p.x, p.y)).unwrap() - f(p)).abs() < 1e-11, "{p:?}");
         }
     }
 
@@ -123,6 +148,6 @@ mod tests {
             mesh.instance(vec![0.0; 8]).unwrap_err(),
             MathError::ValueCount { given: 8, needed: 9, of: "vertices" }
         );
-        assert!(mesh.evaluate(3.0, 0.0).is_err());
+        assert!(mesh.checked((3.0, 0.0)).is_err());
     }
 }

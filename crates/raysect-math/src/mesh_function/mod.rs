@@ -15,6 +15,8 @@ mod triangles;
 pub use discrete2d::Discrete2DMesh;
 pub use discrete3d::Discrete3DMesh;
 pub use interpolator2d::Interpolator2DMesh;
+#[cfg(test)]
+pub(crate) use sample_meshes::cubes;
 
 use crate::spatial::KdTreeSettings;
 

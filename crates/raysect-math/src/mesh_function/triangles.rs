@@ -58,6 +58,26 @@ impl Triangles {
         self.corners.len()
     }
 
+    /// The shortest height of a triangle above a side.
+    pub(super) fn shortest_height(&self) -> f64 {
+        let of = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|v| self.vertices[v as usize]);
+            let longest = a.vector_to(b).length().max(b.vector_to(c).length()).max(c.vector_to(a).length());
+            orientation(a, b, c).abs() / longest
+        };
+        self.corners.iter().map(of).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Lends the two ends of each side of each triangle; those between two triangles twice.
+    pub(super) fn each_edge(&self, each: &mut dyn FnMut([f64; 2], [f64; 2])) {
+        for corners in &self.corners {
+            let [a, b, c] = corners.map(|v| self.vertices[v as usize]).map(|p| [p.x, p.y]);
+            each(a, b);
+            each(b, c);
+            each(c, a);
+        }
+    }
+
     /// The vertices of a triangle.
     #[inline]
     pub(super) fn corners(&self, triangle: u32) -> [u32; 3] {
@@ -88,8 +108,14 @@ impl Triangles {
         for (opposite, weight) in weights.iter_mut().enumerate() {
             let (from, to) = (places[(opposite + 1) % 3], places[(opposite + 2) % 3]);
             let (edge, away) = (from.vector_to(to), from.vector_to(point));
+            let border = -slack * (edge.x.abs() + edge.y.abs());
+            let (left, right) = (edge.x * away.y, edge.y * away.x);
+            // Most of the triangles that do not hold the point are told by a side that rounding cannot turn.
+            if left - right < border - 4.0 * f64::EPSILON * (left.abs() + right.abs()) {
+                return None;
+            }
             let side = difference_of_products(edge.x, away.y, edge.y, away.x);
-            if side < -slack * (edge.x.abs() + edge.y.abs()) {
+            if side < border {
                 return None;
             }
             *weight = side.max(0.0);

@@ -168,7 +168,58 @@ fn ten_thousand_products_stay_a_rotation() {
     assert!(!matrix.is_close(&rotate_vector(angle * 1e4 * (1.0 + 1e-12), axis).unwrap(), 1e-12));
 }
 
+#[test]
+fn slerp_is_finite_for_equal_opposite_tiny_and_huge_quaternions() {
+    let turns = [0.0, 1e-300, 1e-12, 1e-7, 1.0, 90.0, 179.999_999_9, 180.0, 270.0, 359.999_999_999];
+    for turn in turns {
+        let b = Quaternion::from_axis_angle(Vector3D::new(1.0, -2.0, 0.5), turn).unwrap();
+        for other in [b, -b, b * 1e-300, b * 1e300] {
+            for t in [0.0, 1e-9, 0.5, 1.0] {
+                let q = Quaternion::IDENTITY.slerp(other, t).unwrap();
+                assert!(q.is_unit(4.0 * f64::EPSILON), "{turn} {t}: {q:?}");
+                let shorter = turn.min(360.0 - turn);
+                let angle = q.angle().unwrap();
+                assert!((angle.min(360.0 - angle) - t * shorter).abs() < 1e-12, "{turn} {t}: {angle}");
+            }
+        }
+    }
+    for t in [-0.1, 1.1, f64::NAN] {
+        assert!(I.slerp(J, t).is_err());
+    }
+    assert!(I.slerp(Quaternion::new(0.0, 0.0, 0.0, 0.0), 0.5).is_err());
+}
+
 proptest! {
+    #[test]
+    fn slerp_turns_evenly_about_one_axis(
+        a in prop::array::uniform4(-1.0..1.0f64), b in prop::array::uniform4(-1.0..1.0f64), t in 0.0..=1.0f64,
+    ) {
+        let (a, b) = (Quaternion::from(a), Quaternion::from(b));
+        prop_assume!(a.length() > 1e-3 && b.length() > 1e-3);
+        let shorter = |q: Quaternion| q.angle().map(|angle| angle.min(360.0 - angle)).unwrap();
+        let (way, part) = (a.quaternion_to(b).unwrap(), a.quaternion_to(a.slerp(b, t).unwrap()).unwrap());
+        prop_assert!((shorter(part) - t * shorter(way)).abs() < 1e-12);
+        prop_assert!((shorter(way) - shorter(b.quaternion_to(a).unwrap())).abs() < 1e-12);
+        // Back to front it is the same rotation.
+        prop_assert!(distance(a.slerp(b, t).unwrap(), b.slerp(a, 1.0 - t).unwrap()) < 40.0);
+        prop_assume!(t > 0.01 && shorter(way) > 1.0);
+        prop_assert!(part.axis().cross(way.axis()).length() < 1e-10);
+    }
+
+    #[test]
+    fn parts_lengths_and_sums(a in prop::array::uniform4(-1.0..1.0f64), length in 1e-3..1e3f64, i in 0..4usize) {
+        let q = Quaternion::from(a);
+        prop_assume!(q.length() > 1e-3);
+        prop_assert!((q.with_length(length).unwrap().length() / length - 1.0).abs() < 1e-15);
+        prop_assert_eq!((q.conjugate() + q) / 2.0, Quaternion::new(0.0, 0.0, 0.0, q.s));
+        prop_assert!((q.dot(q) - (q * q.conjugate()).s).abs() < 1e-15);
+        prop_assert_eq!(-q + q * 2.0 - 1.0 * q, Quaternion::new(0.0, 0.0, 0.0, 0.0));
+        let mut other = q;
+        other[i] = length;
+        let expected = |k: usize| if k == i { length } else { q[k] };
+        prop_assert!((0..4).all(|k| other[k] == expected(k)));
+    }
+
     #[test]
     fn an_inverse_and_a_way_back(
         a in prop::array::uniform4(-1.0..1.0f64), b in prop::array::uniform4(-1.0..1.0f64), e in -140..140i32,

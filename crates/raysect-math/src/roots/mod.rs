@@ -1,5 +1,7 @@
 //! Real roots of polynomials up to the fourth degree, and of functions.
 
+#[cfg(test)]
+mod adversarial_tests;
 mod bracket;
 mod find;
 mod polynomial;

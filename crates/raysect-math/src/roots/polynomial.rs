@@ -41,6 +41,7 @@ pub fn solve_cubic(a: f64, b: f64, c: f64, d: f64) -> Roots<3> {
 /// let roots = raysect_math::solve_quartic(1.0, 0.0, -5.0, 0.0, 4.0);
 /// assert_eq!(roots[..], [-2.0, -1.0, 1.0, 2.0]);
 /// ```
+#[doc(alias = "solve_biquadratic")]
 #[inline]
 pub fn solve_quartic(a: f64, b: f64, c: f64, d: f64, e: f64) -> Roots<4> {
     if !(a.is_finite() && b.is_finite() && c.is_finite() && d.is_finite() && e.is_finite()) {

@@ -17,6 +17,7 @@ use crate::{MathError, Vector3D};
 /// let v = cone.sample_at([0.3, 0.8]);
 /// assert_eq!(cone.pdf(v), 1.0 / cone.solid_angle());
 /// ```
+#[doc(alias = "vector_cone")]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cone {
     /// 1 − cos θ, in 0 … 2.

@@ -15,17 +15,21 @@
 //! ```
 
 #[cfg(test)]
+mod all_tests;
+#[cfg(test)]
 mod check;
 pub mod cone;
 pub mod disk;
 pub mod hemisphere;
 pub mod sphere;
+mod spherical_disk;
 mod spherical_rectangle;
 mod spherical_triangle;
 pub mod square;
 mod targeted;
 pub mod triangle;
 
+pub use spherical_disk::SphericalDiskSampler;
 pub use spherical_rectangle::SphericalRectangleSampler;
 pub use spherical_triangle::SphericalTriangleSampler;
 pub use targeted::{TargetSphere, TargetedHemisphereSampler, TargetedSphereSampler};

@@ -1,5 +1,7 @@
 use std::path::Path;
 
+use raysect_core::{csv_number, csv_text};
+
 use super::{FileError, write_atomically};
 
 /// Saves a table as comma separated values: a line of the titles of its columns, then a line for each row.
@@ -24,32 +26,15 @@ pub fn save_csv(
     for (number, row) in rows.iter().enumerate() {
         FileError::check_shape(path, &format!("row {number}"), &[titles.len()], row.len())?;
     }
-    let titles: Vec<String> = titles.iter().map(|title| quoted(title.as_ref())).collect();
+    let titles: Vec<_> = titles.iter().map(|title| csv_text(title.as_ref())).collect();
     write_atomically(path, |writer| {
         writeln!(writer, "{}", titles.join(","))?;
         for row in rows {
-            let numbers: Vec<String> = row.iter().map(|&number| shortest(number)).collect();
+            let numbers: Vec<String> = row.iter().map(|&number| csv_number(number)).collect();
             writeln!(writer, "{}", numbers.join(","))?;
         }
         Ok(())
     })
-}
-
-fn quoted(title: &str) -> String {
-    if title.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", title.replace('"', "\"\""))
-    } else {
-        title.to_owned()
-    }
-}
-
-/// The fewest digits that bring a number back, with an exponent where they would be many.
-fn shortest(number: f64) -> String {
-    let size = number.abs();
-    if size == 0.0 || (1e-4..1e16).contains(&size) || !number.is_finite() {
-        return number.to_string();
-    }
-    format!("{number:e}")
 }
 
 #[cfg(test)]

@@ -30,6 +30,7 @@ impl Frame {
             self.prepare(other.shape, other.channels.clone(), &other.fingerprint, lane, &other.observed);
             self.take_in(lane, theirs);
         }
+        self.settle();
         Ok(())
     }
 

@@ -2,12 +2,15 @@
 
 mod bytes;
 mod merge;
+mod moments;
+mod skewness;
 mod sums;
 #[cfg(test)]
 mod tests;
 
 use std::collections::BTreeMap;
 
+use moments::Moments;
 use raysect_math::format_with_error;
 pub(crate) use sums::{Sums, add_sample};
 
@@ -57,6 +60,8 @@ pub struct Frame {
     /// Which pixels are to have samples.
     observed: Vec<bool>,
     lanes: BTreeMap<u64, Sums>,
+    /// γ² of the samples; see [`skewness`].
+    squared_skewness: f64,
 }
 
 impl Frame {
@@ -70,6 +75,7 @@ impl Frame {
             fingerprint: String::new(),
             observed: Vec::new(),
             lanes: BTreeMap::new(),
+            squared_skewness: 0.0,
         }
     }
 
@@ -113,6 +119,7 @@ impl Frame {
         self.lanes.clear();
         self.observed.clear();
         self.shape = FrameShape::Line(0);
+        self.squared_skewness = 0.0;
     }
 
     /// True before the first observation.
@@ -176,7 +183,9 @@ impl Frame {
             fingerprint: self.fingerprint.clone(),
             observed: mask.to_vec(),
             lanes,
+            squared_skewness: 0.0,
         }
+        .settled()
     }
 
     /// The sums of a lane, to be worked on; they are given back by [`put_lane`](Self::put_lane).
@@ -187,6 +196,7 @@ impl Frame {
 
     pub(crate) fn put_lane(&mut self, lane: u64, sums: Sums) {
         self.lanes.insert(lane, sums);
+        self.settle();
     }
 
     /// Samples of a pixel in one lane.
@@ -217,7 +227,19 @@ impl Frame {
     /// of the number of pairs. Samples of a block that is not yet complete count as
     /// independent ones of the whole pixel, which is never too small either. Lanes are independent of each other:
     /// their means are weighted by their numbers of samples.
+    ///
+    /// Means of few skewed samples are not normally distributed, and their intervals cover less than they should: to
+    /// the first order by a term in γ² / n, with the skewness γ of the samples (P. Hall, *The Bootstrap and Edgeworth
+    /// Expansion*, 1992, § 2.6). The error is therefore longer by a factor 1 + 0.37 γ² / n, at most 1.5, where γ is that
+    /// of the samples of the whole frame: between what intervals of one error and of 1.96 errors need. It is
+    /// 1.1 for 64 samples of γ = 4, and nothing once there are many.
     pub fn pixel(&self, pixel: usize, channel: usize) -> Estimate {
+        let estimate = self.normal(pixel, channel);
+        Estimate { error: estimate.error * self.stretch(pixel), ..estimate }
+    }
+
+    /// The same without regard to skewness.
+    fn normal(&self, pixel: usize, channel: usize) -> Estimate {
         let lanes = self.lanes.values().filter(|sums| sums.samples(pixel) > 0);
         let estimates = lanes.map(|sums| (sums.samples(pixel) as f64, sums.estimate(pixel, channel)));
         let together = estimates.reduce(|(n, a), (m, b)| {
@@ -228,38 +250,49 @@ impl Frame {
         together.map_or(Estimate { value: 0.0, error: f64::INFINITY }, |(_, estimate)| estimate)
     }
 
-    fn each(&self, of: impl Fn(Estimate) -> f64) -> Vec<f64> {
+    /// Moments of what the channels of each sample of a pixel add up to.
+    fn moments(&self, pixel: usize) -> Moments {
+        self.lanes.values().fold(Moments::default(), |moments, sums| moments.merged(&sums.moments(pixel)))
+    }
+
+    /// Variance of the squared error of a pixel, relative to its square, of what its channels add up to: how much the
+    /// error itself is to be believed. Σ(x − x̄)⁴ / (Σ(x − x̄)²)² − 1/n; 1 − 1/n if all of the variance is that of one
+    /// sample; 0 for samples that are all alike, infinite for less than two. Below 0.1 errors are known to about 15 %
+    /// (X-5 Monte Carlo Team, *MCNP – Version 5*, LA-UR-03-1987, ch. 2 § VI.E).
+    pub fn variance_of_variance(&self, pixel: usize) -> f64 {
+        self.moments(pixel).variance_of_variance()
+    }
+
+    fn each(&self, of: impl Fn(usize, usize) -> f64) -> Vec<f64> {
         let channels = self.channels.len();
         let places = (0..self.shape.pixels()).flat_map(|p| (0..channels).map(move |c| (p, c)));
-        places.map(|(p, c)| of(self.pixel(p, c))).collect()
+        places.map(|(p, c)| of(p, c)).collect()
     }
 
     /// The means, \[row, column, channel\].
     pub fn mean(&self) -> Vec<f64> {
-        self.each(|e| e.value)
+        self.each(|p, c| self.normal(p, c).value)
     }
 
     /// The standard errors of the means, \[row, column, channel\].
     #[doc(alias = "errors")]
     pub fn error(&self) -> Vec<f64> {
-        self.each(|e| e.error)
+        self.each(|p, c| self.pixel(p, c).error)
     }
 
-    /// Squared standard error times number of samples, \[row, column, channel\]: the variance of independent samples
-    /// that would do as well; infinite for fewer than two samples.
+    /// Number of samples times the squared standard error without regard to skewness, \[row, column, channel\]: the
+    /// variance of independent samples that would do as well; infinite for fewer than two samples.
     pub fn variance(&self) -> Vec<f64> {
-        let channels = self.channels.len();
-        let scale = |p: usize| self.samples(p).max(1) as f64;
-        let errors = self.error();
-        errors.iter().enumerate().map(|(i, e)| e * e * scale(i / channels)).collect()
+        let squared = |p: usize, c: usize| self.normal(p, c).error.powi(2);
+        self.each(|p, c| squared(p, c) * self.samples(p).max(1) as f64)
     }
 
     /// Sum of a channel over all pixels but those that a mask has left out. Pixels are independent, so their variances
-    /// add.
+    /// add; and so do their third moments, which tell how skewed the sum is.
     pub fn total_of(&self, channel: usize) -> Estimate {
-        let all = self.observed_pixels().map(|p| self.pixel(p, channel));
+        let all = self.observed_pixels().map(|p| self.normal(p, channel));
         let (value, variance) = all.fold((0.0, 0.0), |(v, e), x| (v + x.value, e + x.error * x.error));
-        Estimate { value, error: variance.sqrt() }
+        Estimate { value, error: variance.sqrt() * self.total_stretch() }
     }
 
     /// Sum of the first channel over all pixels but those that a mask has left out.

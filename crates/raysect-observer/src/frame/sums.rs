@@ -1,9 +1,11 @@
 //! What the samples of one lane add up to.
 
+use super::moments::Moments;
 use super::{BLOCK, Estimate};
 
-/// What every block begins with: samples, samples that are not zero, largest absolute value.
-const HEADER: usize = 3;
+/// What every block begins with: samples, samples that are not zero, largest absolute value; then the moments of what
+/// the channels of each sample add up to.
+const HEADER: usize = 7;
 
 /// Numbers of each channel in a block that is still open: mean, sum of squared deviations from it, sum of squared
 /// differences within pairs, first value of a pair.
@@ -17,9 +19,8 @@ const CLOSED: usize = 3;
 pub(crate) fn add_sample(block: &mut [f64], sample: &[f64]) {
     let second = block[0] as u32 % 2 == 1;
     let count = block[0] + 1.0;
-    block[0] = count;
     let inverse = 1.0 / count;
-    let mut largest = 0.0f64;
+    let (mut largest, mut sum) = (0.0f64, 0.0);
     for (moments, &x) in block[HEADER..].chunks_exact_mut(OPEN).zip(sample) {
         let deviation = x - moments[0];
         moments[0] += deviation * inverse;
@@ -29,7 +30,12 @@ pub(crate) fn add_sample(block: &mut [f64], sample: &[f64]) {
         }
         moments[3] = x;
         largest = largest.max(x.abs());
+        sum += x;
     }
+    let mut moments = Moments::read(block);
+    moments.add(sum);
+    moments.write(block);
+    block[0] = count;
     if largest > 0.0 {
         block[1] += 1.0;
         block[2] = block[2].max(largest);
@@ -41,6 +47,7 @@ pub(crate) fn add_sample(block: &mut [f64], sample: &[f64]) {
 fn close_block(into: &mut [f64], from: &[f64]) {
     let (n, m) = (into[0], from[0]);
     let total = n + m;
+    Moments::read(into).merged(&Moments::read(from)).write(into);
     into[0] = total;
     into[1] += from[1];
     into[2] = into[2].max(from[2]);
@@ -147,7 +154,12 @@ impl Sums {
         self.closed_blocks(pixel)[2].max(self.open_block(pixel)[2])
     }
 
-    /// Mean and standard error of a pixel in a channel; see [`Frame::pixel`](super::Frame::pixel).
+    /// Moments of what the channels of each sample of a pixel add up to.
+    pub(crate) fn moments(&self, pixel: usize) -> Moments {
+        Moments::read(self.closed_blocks(pixel)).merged(&Moments::read(self.open_block(pixel)))
+    }
+
+    /// Mean and standard error of a pixel in a channel, that of a normal distribution; see [`Frame::pixel`](super::Frame::pixel).
     pub(crate) fn estimate(&self, pixel: usize, channel: usize) -> Estimate {
         let (closed, open) = (self.closed_blocks(pixel), self.open_block(pixel));
         let (n, rest) = (closed[0], open[0]);

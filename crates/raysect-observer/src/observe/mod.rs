@@ -1,7 +1,9 @@
 //! An observation: passes over the pixels, until enough.
 
 mod adaptive;
+mod draw;
 mod pass;
+mod replay;
 mod until;
 
 use std::path::PathBuf;
@@ -10,6 +12,8 @@ use std::sync::Arc;
 use raysect_core::Engine;
 use raysect_math::AffineMatrix3D;
 use raysect_optical::{Ledger, Scene, Slice, World};
+pub use replay::Replay;
+use replay::prepare;
 
 use crate::progress::Meter;
 use crate::statepoint::{scene_fingerprint, write_statepoint};
@@ -52,16 +56,8 @@ impl<'a, S: Sensor> Session<'a, S> {
         if list.is_empty() {
             return Err(ObserverError::NoPipelines);
         }
-        let scene = world.scene()?;
+        let (scene, slices, to_world) = prepare(observer, world)?;
         let slicing = observer.slicing()?;
-        let slices = slicing.slices();
-        for instance in &scene.instances {
-            for slice in &slices {
-                instance.attached.material().check(slice)?;
-            }
-        }
-        let to_world = observer.to_root(world)?;
-        to_world.inverse()?;
         let (sensor, shape) = (observer.sensor(), observer.sensor().shape());
         let mask = observer.checked_mask()?;
         let fingerprint = observer.fingerprint(world)?;

@@ -2,13 +2,12 @@
 
 use std::ops::{ControlFlow, Range};
 
-use raysect_core::Ray;
-use raysect_math::{Rng, Stratum, StreamKey};
+use raysect_math::Stratum;
 use raysect_optical::{LEDGER_NUMBERS, Ledger, Path};
 
+use super::draw::{Drawn, draw};
 use super::{PILOT_LANE, Session};
 use crate::frame::{BLOCK, Sums, add_sample};
-use crate::sensor::radiance_weight;
 use crate::strata::Strata;
 use crate::{Frame, Measurement, ObserverError, Pipeline, Sensor};
 
@@ -212,26 +211,12 @@ impl<S: Sensor> Shared<'_, '_, S> {
         weighted: &mut [f64],
         samples: &mut [Vec<f64>],
     ) {
-        let (session, sensor) = (self.session, self.session.observer.sensor());
+        let session = self.session;
         samples.iter_mut().for_each(|s| s.fill(0.0));
-        let etendue = sensor.etendue(pixel).unwrap_or(f64::NAN);
+        let etendue = session.observer.sensor().etendue(pixel).unwrap_or(f64::NAN);
         for (path, slice) in paths.iter_mut().zip(&session.slices) {
-            let mut rng = Rng::keyed(StreamKey {
-                seed: session.observer.seed_value(),
-                lane: self.lane,
-                slice: slice.index as u64,
-                pixel: pixel as u64,
-                sample: number,
-            })
-            .confined_to(stratum);
-            // The numbers of the sensor come first; they alone are stratified.
-            let ray = sensor.sample_ray(pixel, &mut rng);
-            let weight = radiance_weight(sensor, pixel, &ray);
-            let ray = Ray {
-                origin: session.to_world.transform_point(ray.origin),
-                direction: session.to_world.transform_vector(ray.direction),
-                max_distance: ray.max_distance,
-            };
+            let key = (self.lane, pixel, number);
+            let Drawn { ray, weight, rng } = draw(session.observer, &session.to_world, slice, key, stratum);
             let radiance = path.follow(&ray, rng);
             let radiance = if weight == 1.0 {
                 radiance

@@ -41,6 +41,7 @@ pub struct Measurement<'a> {
 ///
 /// A pipeline only reduces one sample to a few numbers. Means, errors, merging and files are the business of its
 /// [`Frame`], which it owns and lends.
+#[doc(alias("Pipeline0D", "Pipeline1D", "Pipeline2D", "PixelProcessor"))]
 pub trait Pipeline: Send + Sync {
     /// The names of the numbers that it makes of a sample.
     fn channels(&self, slicing: &Slicing) -> Vec<String>;

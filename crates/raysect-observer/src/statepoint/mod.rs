@@ -16,7 +16,7 @@ use crate::{Frame, Observer, ObserverError, Pipelines, Sensor};
 
 /// What every file begins with; then come version and length, the contents, and a checksum (CRC-32) of all before it.
 const MAGIC: &[u8; 8] = b"raysect\x1a";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const HEADER: usize = 8 + 4 + 8;
 const CHECKSUM: usize = 4;
 

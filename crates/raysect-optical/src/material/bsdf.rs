@@ -7,6 +7,7 @@ use crate::Context;
 /// Everything is in surface space: z is the normal on the side from which the path arrives, `incoming` points from
 /// the surface to where the path comes from (z ≥ 0), `outgoing` to where it goes; both are unit vectors. Light
 /// travels against the path: from `outgoing` to `incoming`.
+#[doc(alias = "ContinuousBSDF")]
 pub trait Bsdf {
     /// Draws an outgoing direction.
     fn sample(&self, incoming: Vector3D, at: Context<'_>, rng: &mut Rng) -> Vector3D;

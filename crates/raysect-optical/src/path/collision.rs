@@ -12,6 +12,8 @@ use crate::{Coefficients, Medium, PhaseFunction, Structure};
 /// One medium among those that scatter at a place.
 #[derive(Clone, Copy)]
 struct Scatterer<'a> {
+    /// Number of the instance that it fills.
+    instance: u32,
     medium: &'a dyn Medium,
     share: f64,
 }
@@ -136,8 +138,8 @@ impl<'a> Path<'a> {
     }
 
     /// Scatters at a place where [`free_flight`](Self::free_flight) has ended: looks for a light, then chooses where to
-    /// go on; none if nothing scatters there.
-    pub(super) fn scatter_in_volume(&mut self, ray: &Ray, distance: f64) -> Option<Vector3D> {
+    /// go on; answers with the direction and the number of the instance that scatters, none if nothing does.
+    pub(super) fn scatter_in_volume(&mut self, ray: &Ray, distance: f64) -> Option<(Vector3D, u32)> {
         let scatterer = self.choose_scatterer(ray, distance)?;
         let phase = scatterer.medium.phase_function()?;
         let (point, incoming) = (ray.point_at(distance), ray.direction);
@@ -163,7 +165,7 @@ impl<'a> Path<'a> {
         self.density = Some(density);
         self.favour = if scattered > 0.0 { density / scattered } else { 1.0 };
         self.vertex = vertex;
-        Some(direction)
+        Some((direction, scatterer.instance))
     }
 
     fn choose_in_volume(
@@ -191,7 +193,7 @@ impl<'a> Path<'a> {
         let mut attenuation = std::mem::take(&mut self.attenuation);
         for &instance in media.as_slice() {
             let Some(medium) = self.medium(instance) else { continue };
-            let whole = Scatterer { medium, share: 1.0 };
+            let whole = Scatterer { instance, medium, share: 1.0 };
             each_scatterer(whole, &mut |part: Scatterer<'a>| {
                 scattering.fill(0.0);
                 let mut out = Coefficients {
@@ -226,6 +228,6 @@ fn each_scatterer<'a>(whole: Scatterer<'a>, each: &mut dyn FnMut(Scatterer<'a>))
         each(whole);
     }
     for (share, medium) in whole.medium.parts().into_iter().flatten() {
-        each_scatterer(Scatterer { medium, share: whole.share * share }, each);
+        each_scatterer(Scatterer { medium, share: whole.share * share, ..whole }, each);
     }
 }

@@ -4,6 +4,7 @@ mod collision;
 mod dispersion;
 mod ledger;
 mod line;
+mod log;
 mod media;
 mod scatter;
 mod settings;
@@ -14,6 +15,8 @@ use raysect_math::{Point3D, Rng, Vector3D};
 pub use dispersion::Dispersion;
 pub use ledger::{LEDGER_NUMBERS, Ledger};
 use line::LineRoom;
+use log::PathLog;
+pub use log::{LoggedPath, PathEvent, PathVertex, VertexHit};
 use media::{Coincident, MediaList};
 pub use settings::{LightSampling, PathSettings};
 
@@ -109,8 +112,17 @@ impl<'a> Path<'a> {
     pub fn follow(&mut self, ray: &Ray, rng: Rng) -> &[f64] {
         self.rng = rng;
         self.depth = 0;
-        self.run(ray);
+        self.run::<false>(ray, &mut PathLog::default());
         &self.radiance
+    }
+
+    /// Follows a path as [`follow`](Self::follow) does, with the same bits, and notes all that happens to it.
+    pub fn follow_logged(&mut self, ray: &Ray, rng: Rng) -> LoggedPath {
+        self.rng = rng;
+        self.depth = 0;
+        let (before, mut log) = (self.ledger, PathLog::default());
+        self.run::<true>(ray, &mut log);
+        log.finish(self, &before)
     }
 
     /// The radiance of the path last followed, one value a bin.
@@ -169,13 +181,14 @@ impl<'a> Path<'a> {
         other.rng = Rng::new(self.rng.bits());
         other.depth = self.depth + 1;
         if other.depth < self.settings.max_depth {
-            other.run(ray);
+            other.run::<false>(ray, &mut PathLog::default());
         }
         out.copy_from_slice(&other.radiance);
         self.ledger.rays += other.ledger.rays;
     }
 
-    fn run(&mut self, ray: &Ray) {
+    /// Follows a path to its end. What happens to it goes into the log if it is `LOGGED`, and costs nothing otherwise.
+    fn run<const LOGGED: bool>(&mut self, ray: &Ray, log: &mut PathLog) {
         self.throughput.fill(1.0);
         self.radiance.fill(0.0);
         self.ledger.paths += 1;
@@ -189,6 +202,9 @@ impl<'a> Path<'a> {
         let mut ray = Ray::new(ray.origin, ray.direction * (1.0 / length)).with_max_distance(end);
         self.surround(&ray);
         self.carried = 1.0;
+        if LOGGED {
+            log.start(self, ray.origin);
+        }
         let (mut passes, mut pieces) = (0, end.is_finite());
         loop {
             self.ledger.rays += 1;
@@ -198,14 +214,23 @@ impl<'a> Path<'a> {
                 let turbid = self.is_turbid(&self.media);
                 self.cross_media(&ray, distance, turbid);
                 if turbid && let Some(flight) = self.free_flight(&ray, distance) {
-                    let Some(direction) = self.scatter_in_volume(&ray, flight) else {
+                    if LOGGED {
+                        log.arrive(self, ray.point_at(flight));
+                    }
+                    let Some((direction, scatterer)) = self.scatter_in_volume(&ray, flight) else {
                         self.ledger.absorbed += 1;
                         return;
                     };
+                    if LOGGED {
+                        log.meet(self, scatterer, true);
+                    }
                     (self.leaving, passes, pieces) = (None, 0, false);
                     self.depth += 1;
                     if !self.survives() {
                         return;
+                    }
+                    if LOGGED {
+                        log.leave(self, PathEvent::Scattered);
                     }
                     ray = Ray::new(ray.point_at(flight), direction);
                     continue;
@@ -215,10 +240,17 @@ impl<'a> Path<'a> {
                 // Volumes are closed: a ray that leaves one without a surface has lost its way.
                 let lost = !self.media.is_empty() && ray.max_distance.is_infinite();
                 *(if lost { &mut self.ledger.lost } else { &mut self.ledger.escaped }) += 1;
+                if LOGGED {
+                    log.arrive_nowhere(self, &ray);
+                }
                 return;
             };
             let at = SurfaceHit { surface: self.scene.finish(&ray, &hit), direction: ray.direction };
             let surface = &at.surface;
+            if LOGGED {
+                log.arrive(self, surface.point);
+                log.meet(self, surface.instance, surface.exiting);
+            }
             let scatter = if self.enter_interface(&at) { self.meet(&at) } else { Scatter::PassThrough };
             let direction = match scatter {
                 Scatter::Absorbed => {
@@ -242,6 +274,10 @@ impl<'a> Path<'a> {
             if passes > PASSES {
                 self.ledger.lost += 1;
                 return;
+            }
+            if LOGGED {
+                let chosen = self.density.is_some();
+                log.leave(self, PathEvent::of(scatter, chosen, at.leads_through(direction)));
             }
             let mut leaving = Leaving::new(surface, ray.direction, direction, self.leaving.as_ref());
             if self.scene.compiled.any_medium && at.leads_through(direction) {

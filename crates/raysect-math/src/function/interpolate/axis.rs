@@ -1,12 +1,26 @@
 use super::super::Value;
 use crate::MathError;
 
+/// More knots along one variable than fit into any memory.
+const MOST: usize = 1 << 31;
+
 /// The knots along one variable, and how far beyond them an interpolator may go.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Axis {
     name: &'static str,
     knots: Vec<f64>,
     range: f64,
+    /// The first and the last knot.
+    domain: (f64, f64),
+    /// The knots on both sides of each cell.
+    cells: Vec<[f64; 2]>,
+    /// For each of as many equal parts of the domain as there are cells, the numbers of inner knots in the parts below it
+    /// and in these and itself.
+    parts: Vec<[u32; 2]>,
+    /// Parts for a unit of length.
+    density: f64,
+    /// True if the part is as good as always the cell.
+    even: bool,
 }
 
 impl Axis {
@@ -15,6 +29,7 @@ impl Axis {
         if knots.len() < 2 {
             return Err(MathError::TooFewKnots { axis: name, count: knots.len() });
         }
+        MathError::check(knots.len() <= MOST, knots.len() as f64, "number of knots", "", "2 … 2³¹")?;
         check_finite(name, &[knots.len()], knots)?;
         for (i, pair) in knots.windows(2).enumerate() {
             if pair[0] >= pair[1] {
@@ -22,7 +37,32 @@ impl Axis {
                 return Err(MathError::KnotsNotAscending { axis: name, index, value, previous });
             }
         }
-        Ok(Self { name, knots: knots.to_vec(), range: 0.0 })
+        let last = knots.len() - 1;
+        // Even knots begin their parts in spite of rounding.
+        let density = (1.0 + 1e-9) * last as f64 / (knots[last] - knots[0]);
+        let mut axis = Self {
+            name,
+            knots: knots.to_vec(),
+            range: 0.0,
+            domain: (knots[0], knots[last]),
+            cells: knots.windows(2).map(|pair| [pair[0], pair[1]]).collect(),
+            parts: vec![[0; 2]; last],
+            density,
+            even: false,
+        };
+        axis.even = axis.cells.iter().enumerate().all(|(cell, &[a, b])| {
+            let near = |t: f64| axis.part(a + t * (b - a)) == cell;
+            near(1e-3) && near(1.0 - 1e-3)
+        });
+        for &knot in &knots[1..last] {
+            let part = axis.part(knot);
+            axis.parts[part][1] += 1;
+        }
+        for part in 1..last {
+            let below = axis.parts[part - 1][1];
+            axis.parts[part] = [below, below + axis.parts[part][1]];
+        }
+        Ok(axis)
     }
 
     /// Lets places through up to `range` beyond the ends, infinity for any.
@@ -35,20 +75,37 @@ impl Axis {
         &self.knots
     }
 
+    /// Where its pieces meet, and where its values end: the knots, and the ends of what is beyond them.
+    pub(super) fn borders(&self) -> Vec<f64> {
+        let (first, last) = self.domain();
+        let beyond = [first - self.range, last + self.range];
+        let mut all = self.knots.clone();
+        all.extend(beyond.into_iter().filter(|x| x.is_finite() && self.range > 0.0));
+        all.sort_by(f64::total_cmp);
+        all
+    }
+
+    #[inline]
     pub(super) fn len(&self) -> usize {
         self.knots.len()
     }
 
     /// The first and last knot.
+    #[inline]
     pub(super) fn domain(&self) -> (f64, f64) {
-        (self.knots[0], self.knots[self.len() - 1])
+        self.domain
+    }
+
+    /// True between the first and the last knot.
+    #[inline]
+    pub(super) fn holds(&self, x: f64) -> bool {
+        x >= self.domain.0 && x <= self.domain.1
     }
 
     /// True where the interpolator has a value; false for NaN.
     #[inline]
     pub(super) fn admits(&self, x: f64) -> bool {
-        let (low, high) = self.domain();
-        x >= low - self.range && x <= high + self.range
+        x >= self.domain.0 - self.range && x <= self.domain.1 + self.range
     }
 
     /// The error for a coordinate that is not admitted.
@@ -56,7 +113,7 @@ impl Axis {
         if self.admits(x) {
             return Ok(());
         }
-        let (low, high) = self.domain();
+        let (low, high) = self.domain;
         Err(MathError::OutsideGrid {
             axis: self.name,
             value: x,
@@ -65,17 +122,49 @@ impl Axis {
         })
     }
 
+    /// The part of the domain that holds `x`, the end ones for places outside. It never falls where `x` rises, whatever
+    /// is rounded.
+    #[inline]
+    fn part(&self, x: f64) -> usize {
+        // To 32 bits takes a third of the instructions that 64 take.
+        (((x - self.domain.0) * self.density) as u32 as usize).min(self.parts.len() - 1)
+    }
+
     /// The cell that holds `x`: its lower knot, of the end cells for places outside. A knot belongs to the cell above
     /// it, the last one to the last cell.
+    ///
+    /// Knots in other parts need not be looked at; where the knots are about even there is one to look at.
     #[inline]
     pub(super) fn cell(&self, x: f64) -> usize {
-        self.knots[1..self.len() - 1].partition_point(|&knot| knot <= x)
+        let part = self.part(x);
+        if self.even {
+            let [low, high] = self.cells[part];
+            if low <= x && x < high {
+                return part;
+            }
+        }
+        let [below, end] = self.parts[part].map(|count| count as usize);
+        if end - below > 4 {
+            return below + self.knots[below + 1..=end].partition_point(|&knot| knot <= x);
+        }
+        let mut cell = below;
+        while cell < end && self.cells[cell][1] <= x {
+            cell += 1;
+        }
+        cell
+    }
+
+    /// Lower knot and width of a cell.
+    #[inline]
+    pub(super) fn extent(&self, cell: usize) -> (f64, f64) {
+        let [low, high] = self.cells[cell];
+        (low, high - low)
     }
 
     /// Width of a cell.
     #[inline]
     pub(super) fn width(&self, cell: usize) -> f64 {
-        self.knots[cell + 1] - self.knots[cell]
+        self.extent(cell).1
     }
 }
 
@@ -97,4 +186,66 @@ pub(super) fn check_values(shape: &[usize], values: &[f64]) -> Result<(), MathEr
         return Err(MathError::TableSize { shape: shape.to_vec(), count: values.len() });
     }
     check_finite("f", shape, values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// By bisection of all inner knots.
+    fn bisected(axis: &Axis, x: f64) -> usize {
+        axis.knots[1..axis.len() - 1].partition_point(|&knot| knot <= x)
+    }
+
+    /// True if all knots, their neighbours among numbers, places between and far outside are found.
+    fn finds(axis: &Axis) -> bool {
+        let beside = axis.knots.iter().flat_map(|&x| [x.next_down(), x, x.next_up()]);
+        let between = axis.knots.windows(2).map(|pair| 0.5 * pair[0] + 0.5 * pair[1]);
+        let outside = [f64::NEG_INFINITY, -f64::MAX, f64::MAX, f64::INFINITY];
+        beside.chain(between).chain(outside).all(|x| axis.cell(x) == bisected(axis, x))
+    }
+
+    #[test]
+    fn cells_are_found_on_grids_of_all_kinds() {
+        for count in [2, 3, 4, 10, 33, 1000] {
+            let shapes: [&dyn Fn(f64) -> f64; 7] = [
+                &|i| i,
+                &|i| 0.1 * i - 7.3,
+                &|i| i * i,
+                &|i| 1.5f64.powf(i),
+                &|i| i * 1e-310,
+                &|i| (i / 1000.0 - 0.5) * f64::MAX,
+                &|i| if i < 1.0 { -1e9 } else { 1.0 + i * 1e-12 },
+            ];
+            for (number, shape) in shapes.into_iter().enumerate() {
+                let knots: Vec<f64> = (0..count).map(|i| shape(f64::from(i))).collect();
+                assert!(finds(&Axis::new("x", &knots).unwrap()), "{number} {count}");
+            }
+        }
+        let axis = Axis::new("x", &[-f64::MAX, 0.0, 1.0, f64::MAX]).unwrap();
+        assert!(finds(&axis));
+        // Negative control: one knot counted in the part below.
+        let mut axis = Axis::new("x", &[0.0, 1.0, 2.0, 3.0]).unwrap();
+        axis.parts[0][1] += 1;
+        axis.parts[1][0] += 1;
+        assert!(!finds(&axis));
+    }
+
+    proptest! {
+        #[test]
+        fn cells_are_found_on_random_grids(
+            steps in prop::collection::vec(-12.0..3.0f64, 1..40), first in -1e3..1e3f64, x in -2e3..2e4f64,
+        ) {
+            let mut knots = vec![first];
+            for step in steps {
+                knots.push(knots[knots.len() - 1] + 10f64.powf(step));
+            }
+            knots.dedup();
+            prop_assume!(knots.len() > 1);
+            let axis = Axis::new("x", &knots).unwrap();
+            prop_assert!(finds(&axis));
+            prop_assert_eq!(axis.cell(x), bisected(&axis, x));
+        }
+    }
 }

@@ -10,7 +10,7 @@ pub(super) struct Hermite {
 
 impl Hermite {
     /// The derivative of the given order at `t`, in units of the interval.
-    #[inline]
+    #[inline(always)]
     pub(super) fn cubic(t: f64, order: u32) -> Self {
         let s = 1.0 - t;
         let (rise, slopes) = match order {
@@ -25,7 +25,7 @@ impl Hermite {
     }
 
     /// The same for the straight line between the values.
-    #[inline]
+    #[inline(always)]
     pub(super) fn line(t: f64, order: u32) -> Self {
         let values = match order {
             0 => [1.0 - t, t],
@@ -36,7 +36,7 @@ impl Hermite {
     }
 
     /// The same for the line with the value and slope of the end next to `t`, which lies outside 0 … 1.
-    #[inline]
+    #[inline(always)]
     pub(super) fn beyond(t: f64, order: u32) -> Self {
         let end = usize::from(t > 0.0);
         let mut weights = Self { values: [0.0; 2], slopes: [0.0; 2] };

@@ -17,6 +17,7 @@ use crate::MathError;
 /// assert_eq!((f.evaluate(5.0), f.evaluate(5.5).is_nan()), (0.0, true));
 /// # Ok::<(), raysect_math::MathError>(())
 /// ```
+#[doc(alias("interpolate", "find_index"))]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interpolator1DArray {
     axis: Axis,
@@ -48,6 +49,7 @@ impl Interpolator1DArray {
     ///
     /// # Errors
     /// [`MathError::OutOfRange`] for a negative or NaN range.
+    #[doc(alias = "extrapolation_range")]
     pub fn extrapolate(mut self, extrapolation: Extrapolation1D, range: f64) -> Result<Self, MathError> {
         self.axis.extend(range)?;
         self.extrapolation = extrapolation;
@@ -64,19 +66,12 @@ impl Interpolator1DArray {
     /// Where pieces meet, that of the piece above counts. The end knots belong to the curve, not to what lies beyond.
     #[inline]
     pub fn derivative(&self, x: f64, order: u32) -> f64 {
-        if !self.axis.admits(x) {
-            return f64::NAN;
+        if !self.axis.holds(x) {
+            return self.outside(x, order);
         }
-        let (low, high) = self.domain();
         let cell = self.axis.cell(x);
-        if x < low {
-            return self.beyond(x - low, 0, cell, order);
-        }
-        if x > high {
-            return self.beyond(x - high, self.values.len() - 1, cell, order);
-        }
-        let width = self.axis.width(cell);
-        let t = (x - self.axis.knots()[cell]) / width;
+        let (low, width) = self.axis.extent(cell);
+        let t = (x - low) / width;
         let value = |weights: [f64; 2]| weights[0] * self.values[cell] + weights[1] * self.values[cell + 1];
         let normalised = if self.slopes.is_empty() {
             value(Hermite::line(t, order).values)
@@ -122,21 +117,33 @@ impl Interpolator1DArray {
         if low == high { self.evaluate(low) } else { self.integral(low, high) / (high - low) }
     }
 
+    #[cold]
+    fn outside(&self, x: f64, order: u32) -> f64 {
+        let ((low, high), last) = (self.domain(), self.values.len() - 1);
+        if !self.axis.admits(x) {
+            f64::NAN
+        } else if x < low {
+            self.beyond(x - low, 0, 0, order)
+        } else {
+            self.beyond(x - high, last, last - 1, order)
+        }
+    }
+
     /// The derivative at `distance` (with its sign) from the end knot `end`, next to which lies the end cell `cell`.
     fn beyond(&self, distance: f64, end: usize, cell: usize, order: u32) -> f64 {
         let width = self.axis.width(cell);
         let secant = (self.values[cell + 1] - self.values[cell]) / width;
-        let (slope, curvature) = match self.extrapolation {
+        let (slope, bend) = match self.extrapolation {
             Extrapolation1D::Nearest => return if order == 0 { self.values[end] } else { 0.0 },
             Extrapolation1D::Quadratic if !self.slopes.is_empty() => {
-                (self.slopes[end], (self.slopes[cell + 1] - self.slopes[cell]) / width)
+                (self.slopes[end], self.slopes[cell + 1] - self.slopes[cell])
             }
             Extrapolation1D::Linear | Extrapolation1D::Quadratic => (secant, 0.0),
         };
         match order {
-            0 => self.values[end] + distance * (slope + 0.5 * curvature * distance),
-            1 => slope + curvature * distance,
-            2 => curvature,
+            0 => self.values[end] + distance * (slope + 0.5 * (distance / width) * bend),
+            1 => slope + distance / width * bend,
+            2 => bend / width,
             _ => 0.0,
         }
     }

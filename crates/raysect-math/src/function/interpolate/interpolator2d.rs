@@ -1,6 +1,6 @@
 use super::super::contract::{Function, finite};
 use super::axis::check_values;
-use super::stencil::StencilAxis;
+use super::stencil::{StencilAxis, cubic2};
 use super::{Extrapolation, Interpolation};
 use crate::MathError;
 
@@ -45,6 +45,7 @@ impl Interpolator2DArray {
     ///
     /// # Errors
     /// [`MathError::OutOfRange`] for a negative or NaN range.
+    #[doc(alias = "extrapolation_range")]
     pub fn extrapolate(
         mut self,
         extrapolation: Extrapolation,
@@ -61,21 +62,30 @@ impl Interpolator2DArray {
         [self.x.axis().domain(), self.y.axis().domain()]
     }
 
+    /// Along each axis, the coordinates of the lines at which pieces meet or values end.
+    pub(in super::super) fn lines(&self) -> [Vec<f64>; 2] {
+        [&self.x, &self.y].map(|stencil| stencil.axis().borders())
+    }
+
     /// The derivative of the given orders along x and y; 0 and 0 is the value. NaN where there is no value.
     ///
     /// Where pieces meet, that of the piece above counts.
-    #[inline]
-    pub fn derivative(&self, (x, y): (f64, f64), (order_x, order_y): (u32, u32)) -> f64 {
-        let (Some(a), Some(b)) = (self.x.stencil(x, order_x), self.y.stencil(y, order_y)) else {
-            return f64::NAN;
-        };
+    pub fn derivative(&self, at: (f64, f64), orders: (u32, u32)) -> f64 {
+        self.piece(at, orders)
+    }
+
+    /// Compiled apart for orders of 0, by which much falls away.
+    #[inline(always)]
+    fn piece(&self, (x, y): (f64, f64), (order_x, order_y): (u32, u32)) -> f64 {
         let columns = self.y.axis().len();
-        let mut sum = 0.0;
-        for i in 0..a.count {
-            let [values, slopes, mixed] = b.sums(&self.values[(a.first + i) * columns + b.first..]);
-            sum += (a.values[i] + a.slopes[i]) * values + a.values[i] * slopes + a.mixed[i] * mixed;
+        if self.x.is_linear() {
+            let (a, b) = (self.x.pair(x, order_x), self.y.pair(y, order_y));
+            let start = a.first * columns + b.first;
+            let corners = &self.values[start..][..columns + 2];
+            let low = b.along(corners[0], corners[1]);
+            return a.along(low, b.along(corners[columns], corners[columns + 1]));
         }
-        sum
+        cubic2(&self.values, columns, &self.x.stencil(x, order_x), &self.y.stencil(y, order_y))
     }
 }
 
@@ -83,7 +93,7 @@ impl Function<(f64, f64)> for Interpolator2DArray {
     type Value = f64;
     #[inline]
     fn evaluate(&self, at: (f64, f64)) -> f64 {
-        self.derivative(at, (0, 0))
+        self.piece(at, (0, 0))
     }
 
     fn checked(&self, at: (f64, f64)) -> Result<f64, MathError> {

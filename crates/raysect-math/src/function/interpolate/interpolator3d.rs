@@ -1,6 +1,6 @@
 use super::super::contract::{Function, finite};
 use super::axis::check_values;
-use super::stencil::StencilAxis;
+use super::stencil::{StencilAxis, cubic3};
 use super::{Extrapolation, Interpolation};
 use crate::MathError;
 
@@ -53,6 +53,7 @@ impl Interpolator3DArray {
     ///
     /// # Errors
     /// [`MathError::OutOfRange`] for a negative or NaN range.
+    #[doc(alias = "extrapolation_range")]
     pub fn extrapolate(
         mut self,
         extrapolation: Extrapolation,
@@ -71,28 +72,36 @@ impl Interpolator3DArray {
         [self.x.axis().domain(), self.y.axis().domain(), self.z.axis().domain()]
     }
 
+    /// Along each axis, the coordinates of the planes at which pieces meet or values end.
+    pub(in super::super) fn planes(&self) -> [Vec<f64>; 3] {
+        [&self.x, &self.y, &self.z].map(|stencil| stencil.axis().borders())
+    }
+
     /// The derivative of the given orders along x, y and z; 0, 0 and 0 is the value. NaN where there is no value.
     ///
     /// Where pieces meet, that of the piece above counts.
-    #[inline]
     pub fn derivative(&self, at: (f64, f64, f64), orders: (u32, u32, u32)) -> f64 {
-        let stencils =
-            (self.x.stencil(at.0, orders.0), self.y.stencil(at.1, orders.1), self.z.stencil(at.2, orders.2));
-        let (Some(a), Some(b), Some(c)) = stencils else { return f64::NAN };
+        self.piece(at, orders)
+    }
+
+    /// Compiled apart for orders of 0, by which much falls away.
+    #[inline(always)]
+    fn piece(&self, at: (f64, f64, f64), orders: (u32, u32, u32)) -> f64 {
         let (rows, columns) = (self.y.axis().len(), self.z.axis().len());
-        let mut sum = 0.0;
-        for i in 0..a.count {
-            let plane = (a.first + i) * rows + b.first;
-            for j in 0..b.count {
-                let [values, slopes, mixed] = c.sums(&self.values[(plane + j) * columns + c.first..]);
-                let corner = a.values[i] * b.values[j];
-                let crossed = a.mixed[i] * b.mixed[j];
-                sum += (corner + a.slopes[i] * b.values[j] + a.values[i] * b.slopes[j] + crossed) * values
-                    + corner * slopes
-                    + (a.mixed[i] * b.values[j] + a.values[i] * b.mixed[j] + crossed) * mixed;
-            }
+        if self.x.is_linear() {
+            let (a, b, c) =
+                (self.x.pair(at.0, orders.0), self.y.pair(at.1, orders.1), self.z.pair(at.2, orders.2));
+            let start = (a.first * rows + b.first) * columns + c.first;
+            let face = |start: usize| {
+                let corners = &self.values[start..][..columns + 2];
+                let low = c.along(corners[0], corners[1]);
+                b.along(low, c.along(corners[columns], corners[columns + 1]))
+            };
+            return a.along(face(start), face(start + rows * columns));
         }
-        sum
+        let (a, b, c) =
+            (self.x.stencil(at.0, orders.0), self.y.stencil(at.1, orders.1), self.z.stencil(at.2, orders.2));
+        cubic3(&self.values, [rows, columns], [&a, &b, &c])
     }
 }
 
@@ -100,7 +109,7 @@ impl Function<(f64, f64, f64)> for Interpolator3DArray {
     type Value = f64;
     #[inline]
     fn evaluate(&self, at: (f64, f64, f64)) -> f64 {
-        self.derivative(at, (0, 0, 0))
+        self.piece(at, (0, 0, 0))
     }
 
     fn checked(&self, at: (f64, f64, f64)) -> Result<f64, MathError> {

@@ -35,8 +35,9 @@ pub(super) fn monotone(x: &[f64], f: &[f64]) -> Vec<f64> {
         if before == 0.0 || after == 0.0 || (before > 0.0) != (after > 0.0) {
             return 0.0;
         }
-        let (a, b) = (2.0 * right + left, right + 2.0 * left);
-        (a + b) / (a / before + b / after)
+        // Weights (2 h₊ + h₋) / 3 (h₋ + h₊) and (h₊ + 2 h₋) / 3 (h₋ + h₊), whatever the unit of x.
+        let share = right / (left + right) / 3.0;
+        1.0 / ((1.0 / 3.0 + share) / before + (2.0 / 3.0 - share) / after)
     };
     let end = |near: f64, far: f64, secant: f64, next: f64| {
         let slope = ((2.0 * near + far) * secant - near * next) / (near + far);

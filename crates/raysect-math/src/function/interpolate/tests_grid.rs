@@ -1,6 +1,6 @@
 use super::super::{Arg, Function, sample2d, sample3d};
 use super::{
-    Extrapolation, Interpolation, Interpolation1D, Interpolator1DArray, Interpolator2DArray,
+    Extrapolation, Extrapolation1D, Interpolation, Interpolation1D, Interpolator1DArray, Interpolator2DArray,
     Interpolator3DArray,
 };
 use crate::MathError;
@@ -135,6 +135,47 @@ fn two_and_three_knots_are_enough() {
     let f = f.unwrap().extrapolate(Extrapolation::Linear, 1.0, 1.0).unwrap();
     for (x, y) in [(-0.5, 0.2), (-1.5, -0.5), (0.5, 0.6), (0.0, 1.7)] {
         assert!((f.evaluate((x, y)) - (1.0 + x + 2.0 * y)).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn units_of_the_variables_and_values_do_not_matter() {
+    let f = |x: f64, y: f64, z: f64| (3.0 * x).sin() * y + z * y * y;
+    let scaled = |knots: &[f64], unit: f64| knots.iter().map(|x| x * unit).collect::<Vec<f64>>();
+    // Powers of two: the knots are the same ones.
+    for (unit, unit_f) in
+        [2f64.powi(-530), 2f64.powi(530)].into_iter().flat_map(|u| [(u, 1.0), (u, u), (1.0, u)])
+    {
+        let values = scaled(&grid3(f), unit_f);
+        for (kind, beyond) in KINDS.into_iter().zip(BEYOND) {
+            let [x, y, z] = [&X[..], &Y, &Z].map(|knots| scaled(knots, unit));
+            let space = Interpolator3DArray::new(&x, &y, &z, &values, kind).unwrap();
+            let space = space.extrapolate(beyond, unit, unit, unit).unwrap();
+            let plain = Interpolator3DArray::new(&X, &Y, &Z, &grid3(f), kind).unwrap();
+            let plain = plain.extrapolate(beyond, 1.0, 1.0, 1.0).unwrap();
+            for (x, y, z) in [(0.2, 0.9, 3.3), (-1.7, 0.6, 4.6), (1.4, 3.1, 2.4)] {
+                let (ours, expected) =
+                    (space.evaluate((x * unit, y * unit, z * unit)), plain.evaluate((x, y, z)));
+                assert!(
+                    (ours / unit_f - expected).abs() < 1e-14,
+                    "{unit} {unit_f} {kind:?}: {ours} {expected}"
+                );
+            }
+        }
+        let values: Vec<f64> = X.map(|x| f(x, 1.0, 0.0)).to_vec();
+        for kind in [Interpolation1D::Linear, Interpolation1D::Cubic, Interpolation1D::Monotone] {
+            let curve = Interpolator1DArray::new(&scaled(&X, unit), &scaled(&values, unit_f), kind).unwrap();
+            let curve = curve.extrapolate(Extrapolation1D::Quadratic, unit).unwrap();
+            let plain = Interpolator1DArray::new(&X, &values, kind).unwrap();
+            let plain = plain.extrapolate(Extrapolation1D::Quadratic, 1.0).unwrap();
+            for x in [-1.9, -0.3, 0.25, 1.0, 2.8] {
+                let (ours, expected) = (curve.evaluate(x * unit), plain.evaluate(x));
+                assert!(
+                    (ours / unit_f - expected).abs() < 1e-14,
+                    "{unit} {unit_f} {kind:?}: {ours} {expected}"
+                );
+            }
+        }
     }
 }
 

@@ -22,6 +22,13 @@ pub fn axisymmetric<F>(function: F) -> Expression<AxisymmetricMapper<F>> {
     Expression(AxisymmetricMapper(function))
 }
 
+impl<F> AxisymmetricMapper<F> {
+    /// The function in the half-plane.
+    pub(in super::super) fn plane(&self) -> &F {
+        &self.0
+    }
+}
+
 impl<F: Function<(f64, f64)>> Function<(f64, f64, f64)> for AxisymmetricMapper<F> {
     type Value = F::Value;
     #[inline]

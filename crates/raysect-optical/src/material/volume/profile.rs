@@ -1,6 +1,8 @@
 use std::fmt;
+use std::sync::Arc;
 
 use raysect_core::Ray;
+use raysect_math::function::{Function, Structured3D};
 use raysect_math::{MathError, Point3D};
 
 use super::inhomogeneous::check_length;
@@ -29,6 +31,47 @@ pub struct ProfileVolume<F> {
 impl<F> fmt::Debug for ProfileVolume<F> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "ProfileVolume of {:?}, changing over {} m", self.uniform, self.length_scale)
+    }
+}
+
+impl ProfileVolume<()> {
+    /// Of the coefficients at density one, and a density between 0 and `largest` that knows its structure itself: a grid, a
+    /// mesh of tetrahedra, or what is turned around the z axis of the shape. Where the function has no value (NaN), as
+    /// outside of its grid, there is nothing.
+    ///
+    /// ```
+    /// use raysect_math::function::{Arg, Interpolation, Interpolator2DArray, axisymmetric, sample2d};
+    /// use raysect_math::Point3D;
+    /// use raysect_optical::{ProfileVolume, Ray, UniformVolume, WithMaterial, World};
+    /// use raysect_primitive::Cuboid;
+    /// // A plasma ring: its emission by (r, z) on a grid, nothing outside of it.
+    /// let bell = (-((Arg::X - 2.0).pow(2.0) + Arg::Y.pow(2.0)) / 0.05).exp();
+    /// let ([r, z], emission) = sample2d(&bell, (1.0, 3.0, 41), (-1.0, 1.0, 41))?;
+    /// let ring = axisymmetric(Interpolator2DArray::new(&r, &z, &emission, Interpolation::Linear)?);
+    /// let plasma = ProfileVolume::structured(UniformVolume::new().emission(1.0), ring, 1.0)?;
+    /// let mut world = World::new();
+    /// world.add(Cuboid::centred(8.0, 8.0, 2.0)?.material(plasma))?;
+    /// let seen = Ray::new(Point3D::new(-5.0, 0.0, 0.0), [1.0, 0.0, 0.0].into()).trace(&world)?;
+    /// // Twice the width of the ring.
+    /// assert!((seen.samples()[0] - 2.0 * (0.05 * std::f64::consts::PI).sqrt()).abs() < 0.02);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`new`](ProfileVolume::new).
+    pub fn structured(
+        uniform: UniformVolume,
+        density: impl Structured3D + 'static,
+        largest: f64,
+    ) -> Result<ProfileVolume<impl Fn(Point3D) -> f64 + Send + Sync + 'static>, OpticalError> {
+        let density = Arc::new(density);
+        let (of, length_scale) = (Arc::clone(&density), density.length_scale());
+        let value = move |p: Point3D| {
+            let value = of.evaluate((p.x, p.y, p.z));
+            if value.is_nan() { 0.0 } else { value }
+        };
+        let volume = ProfileVolume::new(uniform, value, largest, length_scale)?;
+        Ok(volume.breaks(move |ray, out| density.add_breaks(ray.origin, ray.direction, out)))
     }
 }
 
