@@ -7,10 +7,10 @@ pub use crate::math::{
     rotate_x, rotate_y, rotate_z, translate,
 };
 pub use crate::observer::{
-    BayerPipeline2D, ColourMap, FunctionalPipeline, MonoDisplay, PowerPipeline0D, PowerPipeline1D,
-    RadiancePipeline0D, RadiancePipeline1D, Shown, SpectralPowerPipeline, SpectralPowerPipeline0D,
-    SpectralPowerPipeline1D, SpectralPowerPipeline2D, SpectralRadiancePipeline, SpectralRadiancePipeline0D,
-    SpectralRadiancePipeline1D, SpectralRadiancePipeline2D,
+    AdaptiveSampling, BayerPipeline2D, ColourMap, FunctionalPipeline, MonoDisplay, PowerPipeline0D,
+    PowerPipeline1D, RadiancePipeline0D, RadiancePipeline1D, Shown, SpectralPowerPipeline,
+    SpectralPowerPipeline0D, SpectralPowerPipeline1D, SpectralPowerPipeline2D, SpectralRadiancePipeline,
+    SpectralRadiancePipeline0D, SpectralRadiancePipeline1D, SpectralRadiancePipeline2D,
 };
 pub use crate::observer::{
     CancelToken, Estimate, Frame, Observer, PinholeCamera, Pipeline, Pipelines, PowerPipeline2D,

@@ -42,6 +42,9 @@ struct Arguments {
     /// Goes on until the mean colour has this relative standard error, instead of a number of samples.
     #[arg(long)]
     stop_error: Option<f64>,
+    /// Takes more of the samples where the colours are noisy.
+    #[arg(long, conflicts_with = "stop_error")]
+    adaptive: bool,
     /// Goes on from `cornell_box.statepoint` in the folder of the results, if there is one, and writes it after each
     /// pass, so that a run that is killed can be resumed by the same command.
     #[arg(long)]
@@ -102,8 +105,12 @@ fn main() -> raysect::Result<()> {
             println!("going on from {}", file("statepoint").display());
         }
     }
-    let stop = arguments.stop_error.map_or(Stop::samples(arguments.samples), Stop::relative_error);
-    let report = camera.observe_until(&world, &mut pipelines, stop)?;
+    let report = if arguments.adaptive {
+        camera.observe_adaptive(&world, &mut pipelines, &AdaptiveSampling::rgb(arguments.samples))?
+    } else {
+        let stop = arguments.stop_error.map_or(Stop::samples(arguments.samples), Stop::relative_error);
+        camera.observe_until(&world, &mut pipelines, stop)?
+    };
     for extension in ["png", "exr", "npz"] {
         rgb.save(file(extension))?;
     }

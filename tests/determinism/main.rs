@@ -3,6 +3,7 @@
 #[path = "../../examples/common/cornell.rs"]
 mod cornell;
 
+mod adaptive;
 mod bits;
 mod cancelling;
 mod engines;

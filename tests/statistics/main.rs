@@ -4,11 +4,13 @@
 #[path = "../../examples/common/cornell.rs"]
 mod cornell;
 
+mod adaptive;
 mod coverage;
 mod dark;
 mod pictures;
 mod score;
 mod seeds;
 mod sensors;
+mod trust;
 mod truth;
 mod until;

@@ -137,6 +137,18 @@ pub enum ObserverError {
     /// A stop rule that would never stop, or stops at nothing.
     #[error("stop rule: {0}")]
     Stop(&'static str),
+    /// Samples that cannot be distributed by what the first pipeline gathers.
+    #[error(
+        "adaptive sampling: the first pipeline '{pipeline}' has {channels} channels, and should have {needs}"
+    )]
+    Adaptive {
+        /// Name of the pipeline.
+        pipeline: String,
+        /// How many channels it has.
+        channels: usize,
+        /// What would suit.
+        needs: &'static str,
+    },
     /// A number of values that does not fit the pixels.
     #[error("{what}: {found} values for {expected} pixels")]
     PixelCount {

@@ -53,6 +53,7 @@
 //! }
 //! ```
 
+mod adaptive;
 mod display;
 mod error;
 pub mod file;
@@ -67,6 +68,7 @@ mod plan;
 #[cfg(feature = "plot")]
 pub mod plot;
 mod progress;
+mod reading;
 mod report;
 mod sensor;
 mod statepoint;
@@ -76,6 +78,7 @@ mod target;
 mod targeted;
 pub mod testing;
 
+pub use adaptive::{AdaptiveSampling, SpectralReduction};
 pub use display::{ColourMap, MonoDisplay};
 pub use error::ObserverError;
 pub use frame::{BLOCK, Estimate, Frame};
@@ -100,6 +103,7 @@ pub use pipeline::{
 };
 pub use plan::Plan;
 pub use progress::Progress;
+pub use reading::Reading;
 pub use report::{Convergence, RenderReport};
 pub use sensor::{FrameShape, Sensor};
 pub use statepoint::{Statepoint, StatepointError};

@@ -11,7 +11,7 @@ use raysect_optical::{PathSettings, Slicing, World};
 
 use crate::observe::Session;
 use crate::progress::{Progress, Watcher};
-use crate::{ObserverError, Pipelines, Plan, RenderReport, Sensor, Statepoint, Stop};
+use crate::{AdaptiveSampling, ObserverError, Pipelines, Plan, RenderReport, Sensor, Statepoint, Stop};
 
 /// A handle that ends an observation from elsewhere; what is finished is kept.
 #[derive(Debug, Clone, Default)]
@@ -238,7 +238,8 @@ impl<S: Sensor> Observer<S> {
         self
     }
 
-    /// Tells a function how far it is, a few times a second.
+    /// Tells a function how far it is, a few times a second: samples done and foreseen, their rate, the time left and the
+    /// error reached.
     pub fn on_progress(mut self, watcher: impl Fn(&Progress) + Send + Sync + 'static) -> Self {
         self.watcher = Some(Arc::new(watcher));
         self
@@ -328,6 +329,23 @@ impl<S: Sensor> Observer<S> {
     ) -> Result<RenderReport, ObserverError> {
         stop.check()?;
         Session::new(self, world, pipelines)?.observe_until(&stop)
+    }
+
+    /// Observes with more samples of some pixels than of others, until there are as many as `adaptive` says, in the mean
+    /// over the pixels. Samples that the pipelines have already, in this lane, are counted in: an observation that was
+    /// interrupted goes on to the same bits.
+    ///
+    /// # Errors
+    /// As [`observe`](Self::observe); [`ObserverError::Adaptive`] for a first pipeline that cannot decide,
+    /// [`ObserverError::Math`] for no samples.
+    #[doc(alias = "frame_sampler")]
+    pub fn observe_adaptive(
+        &self,
+        world: &World,
+        pipelines: &mut (impl Pipelines + ?Sized),
+        adaptive: &AdaptiveSampling,
+    ) -> Result<RenderReport, ObserverError> {
+        Session::new(self, world, pipelines)?.observe_adaptive(adaptive)
     }
 
     /// The same around another sensor.

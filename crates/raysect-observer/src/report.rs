@@ -3,6 +3,8 @@ use std::time::Duration;
 
 use raysect_optical::Ledger;
 
+use crate::Reading;
+
 /// Whether an error that was asked for has been reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Convergence {
@@ -25,6 +27,8 @@ pub struct RenderReport {
     pub passes: usize,
     /// Samples taken of all pixels, by this observation, without those of the pilot.
     pub samples: u64,
+    /// Samples taken of all pixels that only decided about the others, and were thrown away.
+    pub pilot_samples: u64,
     /// Time taken.
     pub elapsed: Duration,
     /// What has become of the paths, those of the pilot included.
@@ -35,9 +39,16 @@ pub struct RenderReport {
     pub cancelled: bool,
     /// What has been reached, if an error was asked for.
     pub convergence: Option<Convergence>,
+    /// What each pipeline has gathered by now, in their order.
+    pub readings: Vec<Reading>,
 }
 
 impl RenderReport {
+    /// Figure of merit of the total of each pipeline's first channel, 1 / (R² t) [1/s]; see [`Reading`].
+    pub fn figures_of_merit(&self) -> Vec<f64> {
+        self.readings.iter().map(|reading| reading.figure_of_merit).collect()
+    }
+
     /// Paths per second.
     pub fn paths_per_second(&self) -> f64 {
         self.ledger.paths as f64 / self.elapsed.as_secs_f64()
@@ -82,13 +93,38 @@ impl RenderReport {
                 l.inconsistencies
             ));
         }
+        if l.unresolved > 0 {
+            all.push(format!(
+                "{} line integrals through volumes did not reach their tolerance, or met more attenuation than was declared",
+                l.unresolved
+            ));
+        }
         if let Some(c) = self.convergence.filter(|c| !c.reached) {
             all.push(format!(
                 "not converged: {} of {} values are less accurate than asked for",
                 c.unconverged, c.elements
             ));
         }
+        all.extend(self.readings.iter().flat_map(Reading::warnings));
         all
+    }
+
+    /// What has become of the paths, in words.
+    fn fates(&self) -> String {
+        let l = &self.ledger;
+        let share = |number: u64, fate: &str| {
+            let percent = 100.0 * number as f64 / (l.paths as f64).max(1.0);
+            let some = if number == 0 { "none".to_owned() } else { format!("{number} ({percent:.3} %)") };
+            format!("{some} {fate}")
+        };
+        let fates = [
+            share(l.absorbed, "absorbed"),
+            share(l.escaped, "escaped"),
+            share(l.killed, "ended by roulette"),
+            share(l.truncated, "cut off"),
+            share(l.lost, "lost"),
+        ];
+        format!("{} paths: {}", l.paths, fates.join(", "))
     }
 }
 
@@ -106,11 +142,13 @@ impl fmt::Display for RenderReport {
             self.paths_per_second(),
             self.rays_per_second(),
         )?;
-        write!(
-            f,
-            "{} paths: {} absorbed, {} escaped, {} ended by roulette, {} cut off, {} lost",
-            l.paths, l.absorbed, l.escaped, l.killed, l.truncated, l.lost
-        )?;
+        f.write_str(&self.fates())?;
+        if self.pilot_samples > 0 {
+            write!(f, "\n{} more samples decided how many to take, and do not count", self.pilot_samples)?;
+        }
+        for reading in &self.readings {
+            write!(f, "\n{reading}")?;
+        }
         if let Some(c) = &self.convergence {
             let word = if c.reached { "reached" } else { "not reached" };
             write!(f, "\nerror {word}: {} of {} values within it", c.elements - c.unconverged, c.elements)?;

@@ -49,7 +49,8 @@ fn worst(density: &dyn Structured3D, world: &World, seed: u64) -> f64 {
     let mut rng = Rng::new(seed);
     let (mut worst, mut met) = (0.0f64, 0);
     for _ in 0..200 {
-        let mut place = |far: f64| Vector3D::new(rng.range(-far, far), rng.range(-far, far), rng.range(-far, far));
+        let mut place =
+            |far: f64| Vector3D::new(rng.range(-far, far), rng.range(-far, far), rng.range(-far, far));
         let (away, at) = (place(1.0).normalise().unwrap() * 5.0, place(0.8));
         let origin = Point3D::ORIGIN + away;
         let direction = (at - away).normalise().unwrap();
@@ -131,9 +132,8 @@ fn tables_in_the_half_plane_are_integrated_to_the_tolerance() {
     let (r, z) = (knots(0.05, 5, &mut rng), knots(-0.9, 9, &mut rng));
     let values: Vec<f64> = (0..45).map(|_| rng.uniform()).collect();
     let density = axisymmetric(Interpolator2DArray::new(&r, &z, &values, Interpolation::Cubic).unwrap());
-    let told = world(
-        ProfileVolume::structured(UniformVolume::new().emission(1.0), density.clone(), 1.5).unwrap(),
-    );
+    let told =
+        world(ProfileVolume::structured(UniformVolume::new().emission(1.0), density.clone(), 1.5).unwrap());
     let fine = Finer(density);
     let error = worst(&fine, &told, 8);
     assert!(error < 1e-6, "{error}");

@@ -1,5 +1,6 @@
 //! An observation: passes over the pixels, until enough.
 
+mod adaptive;
 mod draw;
 mod pass;
 mod replay;
@@ -16,9 +17,9 @@ use replay::prepare;
 
 use crate::progress::Meter;
 use crate::statepoint::{scene_fingerprint, write_statepoint};
-use crate::{Frame, Observer, ObserverError, Pipeline, Pipelines, RenderReport, Sensor};
+use crate::{Frame, Observer, ObserverError, Pipeline, Pipelines, Reading, RenderReport, Sensor};
 
-/// Samples that only decide when to stop, the same for all lanes of samples that count.
+/// Samples that only decide about those that count, the same for all lanes of them.
 const PILOT_LANE: u64 = u64::MAX;
 
 /// How long a pass may take, so that previews come and clocks are looked at [s].
@@ -37,6 +38,8 @@ pub(crate) struct Session<'a, S: Sensor> {
     mask: Vec<bool>,
     /// The frames of the pipelines, kept here while they are written to.
     frames: Vec<Frame>,
+    /// How many rays were traced for the samples of each pixel, those towards lights included; empty if nobody asks.
+    rays: Vec<u64>,
     engine: Arc<dyn Engine>,
     report: RenderReport,
     meter: Meter,
@@ -81,11 +84,13 @@ impl<'a, S: Sensor> Session<'a, S> {
             pixels: mask.iter().filter(|seen| **seen).count(),
             passes: 0,
             samples: 0,
+            pilot_samples: 0,
             elapsed: Default::default(),
             ledger: Ledger::default(),
             invalid: 0,
             cancelled: false,
             convergence: None,
+            readings: Vec::new(),
         };
         Ok(Self {
             observer,
@@ -93,6 +98,7 @@ impl<'a, S: Sensor> Session<'a, S> {
             slices,
             to_world,
             frames: Vec::new(),
+            rays: Vec::new(),
             pipelines: list,
             mask,
             statepoint,
@@ -119,10 +125,15 @@ impl<'a, S: Sensor> Session<'a, S> {
 
     /// How many samples each pixel is to have after `count` more, but no more than `limit`.
     fn goals(&self, frame: &Frame, count: u64, limit: u64) -> Vec<u64> {
+        self.goals_below(frame, count, &|_| limit)
+    }
+
+    /// The same with a limit for each pixel.
+    fn goals_below(&self, frame: &Frame, count: u64, limit: &dyn Fn(usize) -> u64) -> Vec<u64> {
         let lane = self.observer.lane_number();
         let mut goals = vec![0; self.mask.len()];
         for pixel in self.observed() {
-            goals[pixel] = frame.lane_samples(lane, pixel).saturating_add(count).min(limit);
+            goals[pixel] = frame.lane_samples(lane, pixel).saturating_add(count).min(limit(pixel));
         }
         goals
     }
@@ -134,13 +145,25 @@ impl<'a, S: Sensor> Session<'a, S> {
     }
 
     fn finish(mut self) -> RenderReport {
-        self.report.elapsed = self.meter.elapsed();
+        let (added, elapsed) = (self.report.samples, self.meter.elapsed());
+        self.report.elapsed = elapsed;
+        self.report.readings = self.pipelines.iter().map(|p| Reading::of(&**p, added, elapsed)).collect();
         self.report
     }
 
     /// Takes more samples of every pixel that has fewer than `limit`, in passes of a few seconds, until the deadline
     /// [s]; the number taken.
     fn take(&mut self, samples: u64, limit: u64, deadline: Option<f64>) -> Result<u64, ObserverError> {
+        self.take_below(samples, &|_| limit, deadline)
+    }
+
+    /// The same with a limit for each pixel.
+    fn take_below(
+        &mut self,
+        samples: u64,
+        limit: &dyn Fn(usize) -> u64,
+        deadline: Option<f64>,
+    ) -> Result<u64, ObserverError> {
         let mut done = 0;
         let mut speed: Option<f64> = None;
         while done < samples && !self.report.cancelled {
@@ -161,11 +184,11 @@ impl<'a, S: Sensor> Session<'a, S> {
     }
 
     /// One pass of the samples that count.
-    fn main_pass(&mut self, count: u64, limit: u64) -> Result<(), ObserverError> {
+    fn main_pass(&mut self, count: u64, limit: &dyn Fn(usize) -> u64) -> Result<(), ObserverError> {
         self.frames =
             self.pipelines.iter_mut().map(|p| std::mem::replace(p.frame_mut(), Frame::new("", ""))).collect();
         let mut frames = std::mem::take(&mut self.frames);
-        let goals = self.goals(&frames[0], count, limit);
+        let goals = self.goals_below(&frames[0], count, limit);
         let outcome = self.pass(&mut frames, self.observer.lane_number(), &goals);
         for (pipeline, frame) in self.pipelines.iter_mut().zip(frames) {
             *pipeline.frame_mut() = frame;
@@ -176,6 +199,7 @@ impl<'a, S: Sensor> Session<'a, S> {
         }
         self.report.passes += 1;
         self.report.samples += outcome?;
+        self.meter.set_error(self.pipelines[0].frame().total().relative_error());
         for pipeline in &mut self.pipelines {
             pipeline.pass_finished()?;
         }

@@ -5,8 +5,8 @@ use std::ops::{ControlFlow, Range};
 use raysect_math::Stratum;
 use raysect_optical::{LEDGER_NUMBERS, Ledger, Path};
 
-use super::Session;
 use super::draw::{Drawn, draw};
+use super::{PILOT_LANE, Session};
 use crate::frame::{BLOCK, Sums, add_sample};
 use crate::strata::Strata;
 use crate::{Frame, Measurement, ObserverError, Pipeline, Sensor};
@@ -87,6 +87,9 @@ impl<'a, S: Sensor> Session<'a, S> {
         let mut sums: Vec<Sums> = frames.iter_mut().map(|frame| frame.take_lane(lane)).collect();
         let outcome = self.fold(&mut sums, stream, goals);
         frames.iter_mut().zip(sums).for_each(|(frame, sums)| frame.put_lane(lane, sums));
+        if stream == PILOT_LANE {
+            self.report.pilot_samples += outcome.as_ref().unwrap_or(&0);
+        }
         outcome
     }
 
@@ -94,6 +97,7 @@ impl<'a, S: Sensor> Session<'a, S> {
         let items = Items::new(&sums[0], goals, self.engine.workers(), self.slices.len());
         let strides: Vec<usize> = sums.iter().map(Sums::open_stride).collect();
         let (mut ledger, mut invalid, mut samples, mut cancelled) = (Ledger::default(), 0, 0, false);
+        let mut rays = std::mem::take(&mut self.rays);
         let mut meter = std::mem::replace(&mut self.meter, crate::progress::Meter::new(0, true, None));
         let before: Vec<Sums> = sums.iter().map(Sums::open_part).collect();
         let outcome = {
@@ -112,6 +116,12 @@ impl<'a, S: Sensor> Session<'a, S> {
                         }
                     }
                     samples += task.count;
+                    if let Some((&traced, after)) = rest.split_first() {
+                        if let Some(rays) = rays.get_mut(task.pixel) {
+                            *rays += traced as u64;
+                        }
+                        rest = after;
+                    }
                 }
                 if let Some((&bad, numbers)) = rest.split_first() {
                     invalid += bad as u64;
@@ -127,7 +137,7 @@ impl<'a, S: Sensor> Session<'a, S> {
                 ControlFlow::Continue(())
             })
         };
-        self.meter = meter;
+        (self.meter, self.rays) = (meter, rays);
         self.report.ledger.add_numbers(&ledger.to_numbers());
         self.report.invalid += invalid;
         self.report.cancelled |= cancelled;
@@ -136,8 +146,14 @@ impl<'a, S: Sensor> Session<'a, S> {
     }
 }
 
+/// Rays traced so far, those towards lights included.
+fn rays_of(paths: &[Path<'_>]) -> u64 {
+    paths.iter().map(|path| path.ledger().rays + path.ledger().shadow_rays).sum()
+}
+
 impl<S: Sensor> Shared<'_, '_, S> {
-    /// The blocks of all tasks of an item, pipeline by pipeline; then the number of invalid samples and the ledger.
+    /// The blocks of each task of an item, pipeline by pipeline, and its number of rays; at the end the number of invalid
+    /// samples and the ledger.
     fn item(&self, tasks: &[Task]) -> Vec<f64> {
         let session = self.session;
         let settings = session.observer.path_settings();
@@ -149,6 +165,7 @@ impl<S: Sensor> Shared<'_, '_, S> {
         let mut blocks: Vec<Vec<f64>> = self.open.iter().map(|s| vec![0.0; s.open_stride()]).collect();
         let (mut out, mut invalid, mut strata) = (Vec::new(), 0.0, Strata::default());
         for task in tasks {
+            let before = rays_of(&paths);
             for (block, open) in blocks.iter_mut().zip(self.open) {
                 block.copy_from_slice(open.open_block(task.pixel));
                 if task.first % BLOCK == 0 {
@@ -175,6 +192,7 @@ impl<S: Sensor> Shared<'_, '_, S> {
             if (task.first + task.count) % BLOCK != 0 {
                 blocks.iter().for_each(|block| out.extend_from_slice(block));
             }
+            out.push((rays_of(&paths) - before) as f64);
         }
         let mut ledger = Ledger::default();
         paths.iter().for_each(|path| ledger.add_numbers(&path.ledger().to_numbers()));

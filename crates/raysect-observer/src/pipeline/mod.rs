@@ -64,6 +64,11 @@ pub trait Pipeline: Send + Sync {
     /// What it has gathered, for the observer to add to.
     fn frame_mut(&mut self) -> &mut Frame;
 
+    /// The unit of its first channel, if it is another one than that of its frame.
+    fn total_unit(&self) -> &str {
+        self.frame().unit()
+    }
+
     /// Called after each pass over the pixels: to write a preview, for example.
     ///
     /// # Errors

@@ -185,6 +185,10 @@ impl<const POWER: bool> Pipeline for SpectralPipeline<POWER> {
         &mut self.frame
     }
 
+    fn total_unit(&self) -> &str {
+        if POWER { "W" } else { "W/m²/sr" }
+    }
+
     fn pass_finished(&mut self) -> Result<(), ObserverError> {
         self.preview.as_ref().map_or(Ok(()), |path| self.save(path))
     }

@@ -9,7 +9,7 @@ use raysect_optical::colour::{resample_ciexyz, xyz_to_linear_srgb};
 use super::SpectralPipeline;
 use super::output::has_ending;
 use crate::file::{ExrAttribute, ExrLayer, FileError, NpyArray, NpyData, save_csv, save_exr, save_npz};
-use crate::{Estimate, ObserverError};
+use crate::{Estimate, ObserverError, Pipeline};
 
 impl<const POWER: bool> SpectralPipeline<POWER> {
     /// Writes what it has gathered, by the ending of the name: `.csv` as [`save_csv`](Self::save_csv), `.npz` as
@@ -90,7 +90,7 @@ impl<const POWER: bool> SpectralPipeline<POWER> {
             ("wavelengths".to_owned(), numbers(&[bins], slicing.wavelengths())),
             ("bin_edges".to_owned(), numbers(&[bins + 1], (0..=bins).map(edge).collect())),
             ("unit".to_owned(), NpyArray::text(self.frame.unit())),
-            ("total_unit".to_owned(), NpyArray::text(if POWER { "W" } else { "W/m²/sr" })),
+            ("total_unit".to_owned(), NpyArray::text(self.total_unit())),
         ];
         Ok(save_npz(path, &arrays)?)
     }

@@ -205,6 +205,58 @@ fn previews_of_pictures_are_written_after_every_pass() {
     assert!(camera((3, 2)).observe(&surroundings(), &mut power).is_err());
 }
 
+/// Looks at files that others write, whenever a pass is finished.
+struct Viewer {
+    frame: Frame,
+    look: Box<dyn Fn() + Send + Sync>,
+    passes: usize,
+}
+
+impl Pipeline for Viewer {
+    fn channels(&self, _: &Slicing) -> Vec<String> {
+        vec!["nothing".to_owned()]
+    }
+    fn measure(&self, _: &Measurement<'_>, _: &mut [f64]) {}
+    fn frame(&self) -> &Frame {
+        &self.frame
+    }
+    fn frame_mut(&mut self) -> &mut Frame {
+        &mut self.frame
+    }
+    fn pass_finished(&mut self) -> Result<(), ObserverError> {
+        (self.look)();
+        self.passes += 1;
+        Ok(())
+    }
+}
+
+#[test]
+fn previews_are_whole_and_new_after_every_pass_and_progress_is_told() {
+    use std::sync::{Arc, Mutex};
+    let folder = Folder::new();
+    let (png, table) = (folder.join("power.png"), folder.join("power.csv"));
+    let mut power = PowerPipeline2D::new().preview(&png);
+    let mut numbers = PowerPipeline2D::new().preview(&table);
+    let look = move || {
+        assert_eq!(image::open(&png).unwrap().into_rgb8().dimensions(), (3, 2));
+        assert_eq!(std::fs::read_to_string(&table).unwrap().lines().count(), 7);
+        // Gone until the next pass writes them anew.
+        std::fs::remove_file(&png).unwrap();
+        std::fs::remove_file(&table).unwrap();
+    };
+    let mut viewer = Viewer { frame: Frame::new("viewer", "1"), look: Box::new(look), passes: 0 };
+    let told = Arc::new(Mutex::new(Vec::new()));
+    let hears = told.clone();
+    let camera = camera((3, 2)).on_progress(move |progress| hears.lock().unwrap().push(*progress));
+    let report = camera.observe(&surroundings(), &mut (&mut power, &mut numbers, &mut viewer)).unwrap();
+    assert!(report.passes > 1 && viewer.passes == report.passes, "{report}");
+    let told = told.lock().unwrap();
+    let last = told.last().unwrap();
+    assert_eq!((last.samples, last.total, last.left()), (24, 24, Some(std::time::Duration::ZERO)));
+    // One sample tells no error; afterwards there is no noise.
+    assert_eq!(last.relative_error, if report.passes > 2 { 0.0 } else { f64::INFINITY });
+}
+
 #[cfg(feature = "plot")]
 #[test]
 fn frames_are_plotted_with_names_and_units() {

@@ -18,8 +18,10 @@ pub struct ImagePlot {
     display: MonoDisplay,
 }
 
-/// Longer side of the picture, at most.
+/// Longer side of the picture, and how wide and high it is at least: pixels of a line are drawn longer than wide, and a
+/// title has room.
 const SIDE: f64 = 600.0;
+const LEAST: (f64, f64) = (200.0, 60.0);
 const MARGIN: (f64, f64) = (84.0, 40.0);
 const BAR: f64 = 20.0;
 /// Steps of the colour bar.
@@ -52,7 +54,8 @@ impl ImagePlot {
     /// [`ObserverError::File`] for a picture that PNG cannot hold.
     pub fn to_svg(&self) -> Result<String, ObserverError> {
         let scale = SIDE / self.columns.max(self.rows) as f64;
-        let (width, height) = (scale * self.columns as f64, (scale * self.rows as f64).max(1.0));
+        let width = (scale * self.columns as f64).max(LEAST.0);
+        let height = (scale * self.rows as f64).max(LEAST.1);
         let area = Area { left: MARGIN.0, top: MARGIN.1, width, height };
         let bar = Area { left: area.left + width + 24.0, width: BAR, height: height.max(120.0), ..area };
         let mut svg = Svg::new(bar.left + BAR + 84.0, MARGIN.1 + bar.height.max(height) + 64.0);
@@ -122,6 +125,19 @@ mod tests {
         );
         for mark in ["0", "1", "2", "3", "4"] {
             assert!(svg.contains(&format!(">{mark}<")) || svg.contains(&format!(">{mark}.0<")), "{mark}");
+        }
+    }
+
+    #[test]
+    fn lines_of_pixels_are_drawn_wide_enough_to_see() {
+        for (size, picture) in [
+            ((200, 1), r#"width="600.00" height="60.00" preserve"#),
+            ((1, 40), r#"width="200.00" height="600.00" preserve"#),
+            ((30, 20), r#"width="600.00" height="400.00" preserve"#),
+        ] {
+            let values = vec![1.0; size.0 * size.1];
+            let plot = ImagePlot::new("", "power [W]", size, values, MonoDisplay::new()).unwrap();
+            assert!(plot.to_svg().unwrap().contains(picture), "{size:?}");
         }
     }
 

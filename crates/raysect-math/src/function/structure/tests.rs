@@ -55,7 +55,11 @@ fn assert_smooth_between_breaks(function: &dyn Structured3D, seed: u64) -> usize
                     .sum::<f64>()
             };
             for (x, found) in [(0.01, at[0]), (0.99, at[5])] {
-                assert!((cubic(x) - found).abs() < 1e-9, "{x}: {} {found}, {origin:?} {direction:?}", cubic(x));
+                assert!(
+                    (cubic(x) - found).abs() < 1e-9,
+                    "{x}: {} {found}, {origin:?} {direction:?}",
+                    cubic(x)
+                );
             }
             pieces += 1;
         }
