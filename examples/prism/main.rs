@@ -92,7 +92,7 @@ fn save_table(arguments: &Arguments, power: &SpectralPowerPipeline2D, places: &[
 fn compare(room: &Spectrograph, power: &SpectralPowerPipeline2D, places: &[f64]) -> raysect::Result<()> {
     println!("λ [nm]  index     deviation [deg]   of a path − law   place [mm]   on the screen");
     for wavelength in WAVELENGTHS {
-        let (law, (traced, _)) = (room.deviation(wavelength), room.trace(wavelength)?);
+        let (law, (traced, _)) = (room.deviation(wavelength)?, room.trace(wavelength)?);
         let width = (RANGE.1 - RANGE.0) / BINS as f64;
         let bin = ((wavelength - RANGE.0) / width) as usize;
         let expected = mean_place(room, wavelength, width)?;

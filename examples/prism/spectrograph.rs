@@ -1,6 +1,6 @@
 //! A dark room with a hole in the shutter, a prism behind it, and a row of pixels for a screen.
 
-use raysect::optical::PathEvent;
+use raysect::math::MathError;
 use raysect::optical::colour::d65_white;
 use raysect::prelude::*;
 
@@ -14,8 +14,8 @@ const TUNED: f64 = 480.0;
 const HOLE: (f64, f64) = (0.004, 0.08);
 /// Distance and radius of the sun of the picture [m]: 0.53° across.
 const SUN: (f64, f64) = (100.0, 0.4625);
-/// Distance of the screen from the prism, and its width [m].
-const SCREEN: (f64, f64) = (1.5, 0.44);
+/// Distance of the screen from the prism, and how far it reaches beyond the colours on both sides [m].
+const SCREEN: (f64, f64) = (1.5, 0.03);
 
 /// The set-up: a beam in the plane z = 0, with the apex of the prism along y.
 pub(crate) struct Spectrograph {
@@ -28,6 +28,8 @@ pub(crate) struct Spectrograph {
     exit: Point3D,
     /// From the space of the screen to the world: z leads back to the prism, x to what is deviated more.
     screen: AffineMatrix3D,
+    /// Width of the screen [m].
+    width: f64,
 }
 
 impl Spectrograph {
@@ -45,12 +47,15 @@ impl Spectrograph {
             beam: Vector3D::new(cosine, sine, 0.0),
             exit: Point3D::new(0.5 * width, 0.5 * height, 0.0),
             screen: AffineMatrix3D::IDENTITY,
+            width: 0.0,
         };
-        let ends = (spectrograph.deviation(range.0), spectrograph.deviation(range.1));
+        let ends = (spectrograph.deviation(range.0)?, spectrograph.deviation(range.1)?);
         let middle = rotate_z(-0.5 * (ends.0 + ends.1)) * spectrograph.beam;
         let centre = spectrograph.exit + middle * SCREEN.0;
         let place = translate(centre.x, centre.y, centre.z);
         spectrograph.screen = place * rotate_basis(-middle, Vector3D::Z)?;
+        let spread = (0.5 * (ends.0 - ends.1)).to_radians().tan();
+        spectrograph.width = 2.0 * (SCREEN.0 * spread.abs() + SCREEN.1);
         spectrograph.furnish(width, height)?;
         Ok(spectrograph)
     }
@@ -89,7 +94,7 @@ impl Spectrograph {
         let corner = self.exit - (edges[0] + edges[1]) * 0.5;
         let inverse = self.screen.inverse()?;
         let port = Target::rectangle(inverse * corner, edges.map(|edge| inverse * edge))?;
-        Ok(CcdArray::new((columns, 1), SCREEN.1)?.transform(self.screen).targets([port], 0.98)?)
+        Ok(CcdArray::new((columns, 1), self.width)?.transform(self.screen).targets([port], 0.98)?)
     }
 
     /// Refractive index of the prism at a wavelength [nm].
@@ -99,11 +104,12 @@ impl Spectrograph {
 
     /// The angle by which the prism turns light of a wavelength [nm], from Snell's law at both faces [deg] (M. Born and
     /// E. Wolf, *Principles of Optics*, 7th ed., § 4.7.2).
-    pub(crate) fn deviation(&self, wavelength: f64) -> f64 {
+    pub(crate) fn deviation(&self, wavelength: f64) -> raysect::Result<f64> {
         let (apex, index) = (APEX.to_radians(), self.index(wavelength));
         let incidence = (self.index(TUNED) * (0.5 * apex).sin()).asin();
         let inside = apex - (incidence.sin() / index).asin();
-        (incidence + (index * inside.sin()).asin() - apex).to_degrees()
+        let deviation = incidence + (index * inside.sin()).asin() - apex;
+        if deviation.is_nan() { Err(reflected(wavelength)) } else { Ok(deviation.to_degrees()) }
     }
 
     /// Follows light of a wavelength [nm] through the middle of the hole: the angle by which it is turned [deg], and
@@ -115,7 +121,7 @@ impl Spectrograph {
             1,
         );
         // Some are reflected: the first one that goes through tells.
-        for number in 0.. {
+        for number in 0..1000 {
             let path = ray.replay(&self.world, number)?;
             let events: Vec<PathEvent> = path.vertices.iter().map(|vertex| vertex.event).collect();
             if events[1..] == [PathEvent::Refracted, PathEvent::Refracted, PathEvent::Escaped] {
@@ -126,10 +132,15 @@ impl Spectrograph {
                 return Ok((self.beam.angle(from.vector_to(to))?, place));
             }
         }
-        unreachable!("some light goes through")
+        Err(reflected(wavelength))
     }
 }
 
 fn index(glass: &Dielectric, wavelength: f64) -> f64 {
     glass.index().function().evaluate(wavelength)
+}
+
+fn reflected(wavelength: f64) -> raysect::Error {
+    let range = "what the prism lets through";
+    MathError::OutOfRange { name: "wavelength", value: wavelength, unit: "nm", range }.into()
 }
