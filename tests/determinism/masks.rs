@@ -3,7 +3,7 @@
 use raysect::observer::ObserverError;
 use raysect::prelude::*;
 
-use crate::bits::{CASES, COUNT, Case, PIXELS, Pictures, SAMPLES, camera, pixel_bits};
+use crate::bits::{CASES, COUNT, Case, PIXELS, Pictures, SAMPLES, camera, own_bits};
 
 const CASE: Case = CASES[2];
 
@@ -29,7 +29,7 @@ fn a_region_has_the_bits_of_the_whole_and_nothing_else() {
         let (ours, theirs) = (part.rgb.frame(), whole.rgb.frame());
         assert_eq!(ours.is_masked(pixel), !inside(pixel));
         if inside(pixel) {
-            assert_eq!(pixel_bits(ours, pixel), pixel_bits(theirs, pixel), "pixel {pixel}");
+            assert_eq!(own_bits(ours, pixel), own_bits(theirs, pixel), "pixel {pixel}");
         } else {
             assert_eq!(ours.samples(pixel), 0);
             assert_eq!(ours.pixel(pixel, 0), Estimate { value: 0.0, error: f64::INFINITY });

@@ -77,7 +77,7 @@ fn foreign_and_damaged_files_are_refused() {
     let mut next = whole.clone();
     next[8] += 1;
     fs::write(&path, &next).unwrap();
-    assert!(matches!(refusal(&path), StatepointError::Version { found: 2, known: 1, .. }));
+    assert!(matches!(refusal(&path), StatepointError::Version { found: 3, known: 2, .. }));
     for at in (20..whole.len()).step_by(whole.len() / 23) {
         for bit in [0, 7] {
             let mut damaged = whole.clone();
