@@ -9,6 +9,8 @@ use super::Cuboid;
 pub(super) const NEAR: f64 = 0.4;
 
 /// The faces of a cuboid that are seen from a point, and how points on them are drawn from there.
+// It lives on the stack for the time of one question, on the way of every path: no place for a heap.
+#[allow(clippy::large_enum_variant)]
 pub(super) enum Faces {
     /// Far off: a face across each axis with the weight of its choice, which is the solid angle that it would subtend
     /// if it were small, and whether it is the upper one; then a place that is uniform over its area.

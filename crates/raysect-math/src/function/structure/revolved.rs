@@ -25,7 +25,7 @@ fn cross([r, z]: [f64; 2], to: [f64; 2], o: Point3D, d: Vector3D, out: &mut Vec<
     let mut add = |t: f64| {
         let at = o + d * t;
         let along = ((at.x.hypot(at.y) - r) * dr + (at.z - z) * dz) / length;
-        if along >= -SLACK && along <= 1.0 + SLACK {
+        if (-SLACK..=1.0 + SLACK).contains(&along) {
             out.push(t);
         }
     };
