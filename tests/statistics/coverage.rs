@@ -3,8 +3,8 @@
 //! A standard error makes such intervals where the mean is normally distributed and the error well known. The samples
 //! of a pixel of this scene are skewed (γ = 5 in the median: the ceiling is some twenty times brighter beside the lamp
 //! than elsewhere, and few paths come there). Frames know their skewness and make errors longer, so that intervals come
-//! within three per cent of what they should cover after 64 samples, too; but where an edge of the lamp runs through a pixel
-//! its error is that of the few pairs of samples that straddle the edge. From 256 samples on all elements are
+//! within three per cent of what they should cover after 64 samples, too; but where an edge of the lamp runs through a
+//! pixel its error is that of the few pairs of samples that straddle the edge. From 256 samples on all elements are
 //! judged, and once more those that satisfy Cochran's rule, n > 25 γ². Whatever the distribution, the mean square of
 //! the errors, before they are made longer, must be that of the differences from the truth: this is asked of all
 //! elements after any number of samples; and sums over the picture must cover at once.

@@ -66,7 +66,9 @@ pub fn tetrahedron_shares(corners: [Point3D; 4], point: Point3D) -> Result<[f64;
     finite(parts.map(|part| part / volume))
 }
 
-fn six_volumes(a: Point3D, b: Point3D, c: Point3D, d: Point3D) -> f64 {
+/// Six times the volume of a tetrahedron, positive if d lies on the side of the face abc that its normal points to.
+#[inline]
+pub(crate) fn six_volumes(a: Point3D, b: Point3D, c: Point3D, d: Point3D) -> f64 {
     a.vector_to(b).cross(a.vector_to(c)).dot(a.vector_to(d))
 }
 

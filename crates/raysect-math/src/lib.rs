@@ -3,6 +3,7 @@
 
 mod affine;
 mod barycentric;
+mod components;
 mod error;
 pub mod error_free;
 mod frame;

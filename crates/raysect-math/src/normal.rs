@@ -1,5 +1,6 @@
-use std::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::components::indexed;
 use crate::triple::direction_arithmetic;
 use crate::{MathError, Vector3D};
 

@@ -1,5 +1,6 @@
-use std::ops::{Add, Index, IndexMut, Sub};
+use std::ops::{Add, Sub};
 
+use crate::components::indexed;
 use crate::{Normal3D, Vector2D, Vector3D};
 
 /// A place in space [m].
@@ -122,30 +123,7 @@ impl Sub<Normal3D> for Point3D {
     }
 }
 
-impl Index<usize> for Point3D {
-    type Output = f64;
-    #[inline]
-    fn index(&self, axis: usize) -> &f64 {
-        match axis {
-            0 => &self.x,
-            1 => &self.y,
-            2 => &self.z,
-            _ => panic!("axis {axis} of a point in space (0, 1 or 2)"),
-        }
-    }
-}
-
-impl IndexMut<usize> for Point3D {
-    #[inline]
-    fn index_mut(&mut self, axis: usize) -> &mut f64 {
-        match axis {
-            0 => &mut self.x,
-            1 => &mut self.y,
-            2 => &mut self.z,
-            _ => panic!("axis {axis} of a point in space (0, 1 or 2)"),
-        }
-    }
-}
+indexed!(Point3D, "a point in space", 0 => x, 1 => y, 2 => z);
 
 /// A place in a plane [m].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -196,28 +174,7 @@ impl From<Point2D> for [f64; 2] {
     }
 }
 
-impl Index<usize> for Point2D {
-    type Output = f64;
-    #[inline]
-    fn index(&self, axis: usize) -> &f64 {
-        match axis {
-            0 => &self.x,
-            1 => &self.y,
-            _ => panic!("axis {axis} of a point in a plane (0 or 1)"),
-        }
-    }
-}
-
-impl IndexMut<usize> for Point2D {
-    #[inline]
-    fn index_mut(&mut self, axis: usize) -> &mut f64 {
-        match axis {
-            0 => &mut self.x,
-            1 => &mut self.y,
-            _ => panic!("axis {axis} of a point in a plane (0 or 1)"),
-        }
-    }
-}
+indexed!(Point2D, "a point in a plane", 0 => x, 1 => y);
 
 impl Add<Vector2D> for Point2D {
     type Output = Self;

@@ -1,5 +1,6 @@
-use std::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::components::indexed;
 use crate::transform::sin_cos;
 use crate::{AffineMatrix3D, MathError, Vector3D};
 
@@ -268,32 +269,7 @@ fn check_rotation(m: &AffineMatrix3D) -> Result<(), MathError> {
     }
 }
 
-impl Index<usize> for Quaternion {
-    type Output = f64;
-    #[inline]
-    fn index(&self, component: usize) -> &f64 {
-        match component {
-            0 => &self.x,
-            1 => &self.y,
-            2 => &self.z,
-            3 => &self.s,
-            _ => panic!("component {component} of a quaternion (0, 1, 2 or 3)"),
-        }
-    }
-}
-
-impl IndexMut<usize> for Quaternion {
-    #[inline]
-    fn index_mut(&mut self, component: usize) -> &mut f64 {
-        match component {
-            0 => &mut self.x,
-            1 => &mut self.y,
-            2 => &mut self.z,
-            3 => &mut self.s,
-            _ => panic!("component {component} of a quaternion (0, 1, 2 or 3)"),
-        }
-    }
-}
+indexed!(Quaternion, "a quaternion", 0 => x, 1 => y, 2 => z, 3 => s);
 
 impl From<[f64; 4]> for Quaternion {
     #[inline]

@@ -189,29 +189,7 @@ macro_rules! direction_arithmetic {
                 Self::new(self.x / s, self.y / s, self.z / s)
             }
         }
-        impl Index<usize> for $name {
-            type Output = f64;
-            #[inline]
-            fn index(&self, axis: usize) -> &f64 {
-                match axis {
-                    0 => &self.x,
-                    1 => &self.y,
-                    2 => &self.z,
-                    _ => panic!("axis {axis} of a three-dimensional vector (0, 1 or 2)"),
-                }
-            }
-        }
-        impl IndexMut<usize> for $name {
-            #[inline]
-            fn index_mut(&mut self, axis: usize) -> &mut f64 {
-                match axis {
-                    0 => &mut self.x,
-                    1 => &mut self.y,
-                    2 => &mut self.z,
-                    _ => panic!("axis {axis} of a three-dimensional vector (0, 1 or 2)"),
-                }
-            }
-        }
+        indexed!($name, "a three-dimensional vector", 0 => x, 1 => y, 2 => z);
     };
     (@binary $name:ident, $other:ident) => {
         impl Add<$other> for $name {

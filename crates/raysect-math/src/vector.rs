@@ -1,5 +1,6 @@
-use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+use crate::components::indexed;
 use crate::triple::direction_arithmetic;
 use crate::{MathError, Normal3D};
 
@@ -203,28 +204,7 @@ impl From<Vector2D> for [f64; 2] {
     }
 }
 
-impl Index<usize> for Vector2D {
-    type Output = f64;
-    #[inline]
-    fn index(&self, axis: usize) -> &f64 {
-        match axis {
-            0 => &self.x,
-            1 => &self.y,
-            _ => panic!("axis {axis} of a vector in a plane (0 or 1)"),
-        }
-    }
-}
-
-impl IndexMut<usize> for Vector2D {
-    #[inline]
-    fn index_mut(&mut self, axis: usize) -> &mut f64 {
-        match axis {
-            0 => &mut self.x,
-            1 => &mut self.y,
-            _ => panic!("axis {axis} of a vector in a plane (0 or 1)"),
-        }
-    }
-}
+indexed!(Vector2D, "a vector in a plane", 0 => x, 1 => y);
 
 impl Add for Vector2D {
     type Output = Self;

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use super::field::{Field, found};
+use super::field::{Field, found, function_on_mesh};
 use super::tetrahedra::Tetrahedra;
 use crate::function::{Function, Structured3D};
 use crate::{MathError, Point3D, Vector3D};
@@ -52,13 +52,6 @@ impl Discrete3DMesh {
         Ok(Self { tetrahedra: Arc::clone(&self.tetrahedra), field })
     }
 
-    /// The same function, with a value outside of the mesh. A clone of it shares mesh and values.
-    #[doc(alias("default_value", "limit"))]
-    pub fn with_default(mut self, value: f64) -> Self {
-        self.field.default = Some(value);
-        self
-    }
-
     #[inline]
     fn find(&self, at: (f64, f64, f64)) -> Option<f64> {
         match self.tetrahedra.find(Point3D::new(at.0, at.1, at.2)) {
@@ -68,20 +61,7 @@ impl Discrete3DMesh {
     }
 }
 
-impl Function<(f64, f64, f64)> for Discrete3DMesh {
-    type Value = f64;
-
-    /// The value at a point [m]: NaN outside of the mesh if there is no default value, and at NaN.
-    #[inline]
-    fn evaluate(&self, at: (f64, f64, f64)) -> f64 {
-        self.find(at).unwrap_or(f64::NAN)
-    }
-
-    /// As [`evaluate`](Function::evaluate), with [`MathError::OutsideMesh`] in place of NaN.
-    fn checked(&self, at: (f64, f64, f64)) -> Result<f64, MathError> {
-        found(at, self.find(at))
-    }
-}
+function_on_mesh!(Discrete3DMesh, (f64, f64, f64));
 
 impl Structured3D for Discrete3DMesh {
     /// The shortest height of a tetrahedron.

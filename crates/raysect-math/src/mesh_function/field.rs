@@ -40,3 +40,33 @@ impl Field {
 pub(super) fn found<P: Place>(at: P, value: Option<f64>) -> Result<f64, MathError> {
     value.ok_or_else(|| MathError::OutsideMesh { at: at.coordinates() })
 }
+
+/// Makes a type with `find` and `field` a function of points, and lets it have a value outside of the mesh.
+macro_rules! function_on_mesh {
+    ($name:ident, $place:ty) => {
+        impl $name {
+            /// The same function, with a value outside of the mesh. A clone of it shares mesh and values.
+            #[doc(alias("default_value", "limit"))]
+            pub fn with_default(mut self, value: f64) -> Self {
+                self.field.default = Some(value);
+                self
+            }
+        }
+
+        impl Function<$place> for $name {
+            type Value = f64;
+
+            /// The value at a point [m]: NaN outside of the mesh if there is no default value, and at NaN.
+            #[inline]
+            fn evaluate(&self, at: $place) -> f64 {
+                self.find(at).unwrap_or(f64::NAN)
+            }
+
+            /// As [`evaluate`](Function::evaluate), with [`MathError::OutsideMesh`] in place of NaN.
+            fn checked(&self, at: $place) -> Result<f64, MathError> {
+                found(at, self.find(at))
+            }
+        }
+    };
+}
+pub(super) use function_on_mesh;

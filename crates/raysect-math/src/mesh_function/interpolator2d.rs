@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
-use super::field::{Field, found};
-use super::triangles::Triangles;
+use super::field::{Field, found, function_on_mesh};
+use super::triangles::{Triangles, structured_by_triangles};
 use crate::function::{Function, Structured2D};
 use crate::{MathError, Point2D};
 
@@ -54,13 +54,6 @@ impl Interpolator2DMesh {
         Ok(Self { triangles: Arc::clone(&self.triangles), field })
     }
 
-    /// The same function, with a value outside of the mesh. A clone of it shares mesh and values.
-    #[doc(alias("default_value", "limit"))]
-    pub fn with_default(mut self, value: f64) -> Self {
-        self.field.default = Some(value);
-        self
-    }
-
     #[inline]
     fn find(&self, at: (f64, f64)) -> Option<f64> {
         match self.triangles.find(at.0, at.1) {
@@ -73,31 +66,9 @@ impl Interpolator2DMesh {
     }
 }
 
-impl Function<(f64, f64)> for Interpolator2DMesh {
-    type Value = f64;
+function_on_mesh!(Interpolator2DMesh, (f64, f64));
 
-    /// The value at a point [m]: NaN outside of the mesh if there is no default value, and at NaN.
-    #[inline]
-    fn evaluate(&self, at: (f64, f64)) -> f64 {
-        self.find(at).unwrap_or(f64::NAN)
-    }
-
-    /// As [`evaluate`](Function::evaluate), with [`MathError::OutsideMesh`] in place of NaN.
-    fn checked(&self, at: (f64, f64)) -> Result<f64, MathError> {
-        found(at, self.find(at))
-    }
-}
-
-impl Structured2D for Interpolator2DMesh {
-    /// The shortest height of a triangle.
-    fn length_scale(&self) -> f64 {
-        self.triangles.shortest_height()
-    }
-
-    fn each_edge(&self, each: &mut dyn FnMut([f64; 2], [f64; 2])) {
-        self.triangles.each_edge(each);
-    }
-}
+structured_by_triangles!(Interpolator2DMesh);
 
 #[cfg(test)]
 mod tests {

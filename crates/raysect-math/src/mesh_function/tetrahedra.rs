@@ -1,4 +1,5 @@
 use super::{FARTHEST, SETTINGS};
+use crate::barycentric::six_volumes;
 use crate::spatial::{KdItem, KdTree3D};
 use crate::{MathError, Point3D, Vector3D};
 
@@ -18,12 +19,6 @@ fn slack(corners: &[Point3D; 4]) -> f64 {
     16.0 * f64::EPSILON * corners.iter().map(|p| p.max_abs()).fold(0.0, f64::max)
 }
 
-/// Six times the volume, positive if d lies on the side of the face that its normal points to.
-#[inline]
-fn volume(a: Point3D, b: Point3D, c: Point3D, d: Point3D) -> f64 {
-    a.vector_to(b).cross(a.vector_to(c)).dot(a.vector_to(d))
-}
-
 impl Tetrahedra {
     pub(super) fn new(vertices: Vec<Point3D>, mut corners: Vec<[u32; 4]>) -> Result<Self, MathError> {
         let wrong = |kind, index, reason| Err(MathError::MeshPart { kind, index, reason });
@@ -40,7 +35,7 @@ impl Tetrahedra {
             }
             let places = tetrahedron.map(|v| vertices[v as usize]);
             let [a, b, c, d] = places;
-            let sense = volume(a, b, c, d);
+            let sense = six_volumes(a, b, c, d);
             if sense == 0.0 {
                 return wrong("tetrahedron", index, "its vertices lie in one plane".into());
             }
@@ -74,7 +69,7 @@ impl Tetrahedra {
     pub(super) fn shortest_height(&self) -> f64 {
         let of = |corners: &[u32; 4]| {
             let places = corners.map(|v| self.vertices[v as usize]);
-            let volume = volume(places[0], places[1], places[2], places[3]).abs();
+            let volume = six_volumes(places[0], places[1], places[2], places[3]).abs();
             let areas = FACES.map(|face| {
                 let [a, b, c] = face.map(|k| places[k]);
                 a.vector_to(b).cross(a.vector_to(c)).length()

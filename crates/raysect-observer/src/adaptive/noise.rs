@@ -41,9 +41,9 @@ impl Channel {
     }
 }
 
-/// The variance of a sample, as the error of a pixel shows it; zero if it is not known.
+/// The variance of a sample of a pixel; zero if it is not known.
 fn variance(frame: &Frame, pixel: usize, channel: usize) -> f64 {
-    let variance = frame.pixel(pixel, channel).error.powi(2) * frame.samples(pixel) as f64;
+    let variance = frame.pixel_variance(pixel, channel);
     if variance.is_finite() { variance } else { 0.0 }
 }
 

@@ -283,8 +283,12 @@ impl Frame {
     /// Number of samples times the squared standard error without regard to skewness, \[row, column, channel\]: the
     /// variance of independent samples that would do as well; infinite for fewer than two samples.
     pub fn variance(&self) -> Vec<f64> {
-        let squared = |p: usize, c: usize| self.normal(p, c).error.powi(2);
-        self.each(|p, c| squared(p, c) * self.samples(p).max(1) as f64)
+        self.each(|p, c| self.pixel_variance(p, c))
+    }
+
+    /// That of a pixel in a channel.
+    pub(crate) fn pixel_variance(&self, pixel: usize, channel: usize) -> f64 {
+        self.normal(pixel, channel).error.powi(2) * self.samples(pixel).max(1) as f64
     }
 
     /// Sum of a channel over all pixels but those that a mask has left out. Pixels are independent, so their variances

@@ -159,7 +159,8 @@ impl Sums {
         Moments::read(self.closed_blocks(pixel)).merged(&Moments::read(self.open_block(pixel)))
     }
 
-    /// Mean and standard error of a pixel in a channel, that of a normal distribution; see [`Frame::pixel`](super::Frame::pixel).
+    /// Mean and standard error of a pixel in a channel without regard to skewness; see
+    /// [`Frame::pixel`](super::Frame::pixel).
     pub(crate) fn estimate(&self, pixel: usize, channel: usize) -> Estimate {
         let (closed, open) = (self.closed_blocks(pixel), self.open_block(pixel));
         let (n, rest) = (closed[0], open[0]);

@@ -61,7 +61,7 @@ impl Faces {
     }
 
     /// None where a solid angle is beyond what the sampler can tell: in the plane of a face, to rounding.
-    #[cold]
+    #[inline(never)]
     fn near(cuboid: &Cuboid, from: Point3D, sides: [(bool, bool); 3]) -> Option<Self> {
         let extent = cuboid.lower.vector_to(cuboid.upper).to_array();
         let mut faces = [None; 3];

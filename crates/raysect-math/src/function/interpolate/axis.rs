@@ -75,14 +75,21 @@ impl Axis {
         &self.knots
     }
 
-    /// Where its pieces meet, and where its values end: the knots, and the ends of what is beyond them.
-    pub(super) fn borders(&self) -> Vec<f64> {
-        let (first, last) = self.domain();
-        let beyond = [first - self.range, last + self.range];
-        let mut all = self.knots.clone();
-        all.extend(beyond.into_iter().filter(|x| x.is_finite() && self.range > 0.0));
-        all.sort_by(f64::total_cmp);
-        all
+    /// Where its values end, those beyond the knots included; infinite if they go on for ever.
+    pub(super) fn reach(&self) -> (f64, f64) {
+        (self.domain.0 - self.range, self.domain.1 + self.range)
+    }
+
+    /// Where its pieces meet, and where its values end.
+    pub(super) fn borders(&self) -> impl Iterator<Item = f64> {
+        let (first, last) = self.reach();
+        let beyond = [first, last].into_iter().filter(|x| x.is_finite() && self.range > 0.0);
+        self.knots.iter().copied().chain(beyond)
+    }
+
+    /// The shortest distance of two knots.
+    pub(super) fn shortest_step(&self) -> f64 {
+        self.cells.iter().map(|[low, high]| high - low).fold(f64::INFINITY, f64::min)
     }
 
     #[inline]

@@ -1,5 +1,5 @@
 use super::super::contract::{Function, finite};
-use super::axis::check_values;
+use super::axis::{Axis, check_values};
 use super::stencil::{StencilAxis, cubic2};
 use super::{Extrapolation, Interpolation};
 use crate::MathError;
@@ -62,9 +62,8 @@ impl Interpolator2DArray {
         [self.x.axis().domain(), self.y.axis().domain()]
     }
 
-    /// Along each axis, the coordinates of the lines at which pieces meet or values end.
-    pub(in super::super) fn lines(&self) -> [Vec<f64>; 2] {
-        [&self.x, &self.y].map(|stencil| stencil.axis().borders())
+    pub(super) fn axes(&self) -> [&Axis; 2] {
+        [self.x.axis(), self.y.axis()]
     }
 
     /// The derivative of the given orders along x and y; 0 and 0 is the value. NaN where there is no value.

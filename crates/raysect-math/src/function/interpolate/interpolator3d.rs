@@ -1,5 +1,5 @@
 use super::super::contract::{Function, finite};
-use super::axis::check_values;
+use super::axis::{Axis, check_values};
 use super::stencil::{StencilAxis, cubic3};
 use super::{Extrapolation, Interpolation};
 use crate::MathError;
@@ -72,9 +72,8 @@ impl Interpolator3DArray {
         [self.x.axis().domain(), self.y.axis().domain(), self.z.axis().domain()]
     }
 
-    /// Along each axis, the coordinates of the planes at which pieces meet or values end.
-    pub(in super::super) fn planes(&self) -> [Vec<f64>; 3] {
-        [&self.x, &self.y, &self.z].map(|stencil| stencil.axis().borders())
+    pub(super) fn axes(&self) -> [&Axis; 3] {
+        [self.x.axis(), self.y.axis(), self.z.axis()]
     }
 
     /// The derivative of the given orders along x, y and z; 0, 0 and 0 is the value. NaN where there is no value.

@@ -8,6 +8,7 @@ mod interpolator3d;
 mod kind;
 mod slopes;
 mod stencil;
+mod structure;
 #[cfg(test)]
 mod tests1d;
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! Functions that know where they change, so that integrals along lines need not guess.
 
-mod grid;
 mod revolved;
 #[cfg(test)]
 mod tests;

@@ -128,6 +128,21 @@ fn tables_in_the_half_plane_tell_the_cylinders_and_planes_of_their_knots() {
 }
 
 #[test]
+fn tables_that_go_on_for_ever_have_corners_there_too() {
+    let table =
+        Interpolator2DArray::new(&[0.5, 1.0, 1.5], &[-1.0, 1.0], &[1.0; 6], Interpolation::Linear).unwrap();
+    let found = |range: f64| {
+        let table = table.clone().extrapolate(Extrapolation::Nearest, range, range).unwrap();
+        assert_eq!(table.length_scale(), 0.5);
+        let mut breaks = Vec::new();
+        // Far above the last knot, and past the axis by more than the length scale.
+        axisymmetric(table).add_breaks(Point3D::new(-2.0, 0.6, 30.0), Vector3D::X, &mut breaks);
+        breaks.iter().filter(|t| **t > 0.0 && **t != 2.0).count()
+    };
+    assert_eq!((found(f64::INFINITY), found(100.0), found(1e-6)), (4, 6, 0));
+}
+
+#[test]
 fn tetrahedra_are_constant_between_their_breaks() {
     let (vertices, tetrahedra) = crate::mesh_function::cubes(4, 0.0);
     let vertices: Vec<Point3D> =
