@@ -53,6 +53,13 @@ impl Discrete2DMesh {
         Ok(Self { triangles: Arc::clone(&self.triangles), field })
     }
 
+    /// The same function, with a value outside of the mesh. A clone of it shares mesh and values.
+    #[doc(alias("default_value", "limit"))]
+    pub fn with_default(mut self, value: f64) -> Self {
+        self.field.default = Some(value);
+        self
+    }
+
     #[inline]
     fn find(&self, at: (f64, f64)) -> Option<f64> {
         match self.triangles.find(at.0, at.1) {

@@ -52,6 +52,13 @@ impl Discrete3DMesh {
         Ok(Self { tetrahedra: Arc::clone(&self.tetrahedra), field })
     }
 
+    /// The same function, with a value outside of the mesh. A clone of it shares mesh and values.
+    #[doc(alias("default_value", "limit"))]
+    pub fn with_default(mut self, value: f64) -> Self {
+        self.field.default = Some(value);
+        self
+    }
+
     #[inline]
     fn find(&self, at: (f64, f64, f64)) -> Option<f64> {
         match self.tetrahedra.find(Point3D::new(at.0, at.1, at.2)) {

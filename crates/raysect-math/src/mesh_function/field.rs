@@ -41,18 +41,9 @@ pub(super) fn found<P: Place>(at: P, value: Option<f64>) -> Result<f64, MathErro
     value.ok_or_else(|| MathError::OutsideMesh { at: at.coordinates() })
 }
 
-/// Makes a type with `find` and `field` a function of points, and lets it have a value outside of the mesh.
+/// Makes a type with `find` a function of points.
 macro_rules! function_on_mesh {
     ($name:ident, $place:ty) => {
-        impl $name {
-            /// The same function, with a value outside of the mesh. A clone of it shares mesh and values.
-            #[doc(alias("default_value", "limit"))]
-            pub fn with_default(mut self, value: f64) -> Self {
-                self.field.default = Some(value);
-                self
-            }
-        }
-
         impl Function<$place> for $name {
             type Value = f64;
 
