@@ -17,7 +17,7 @@ use raysect::prelude::*;
 /// Renders balls of a uniform glow, of blobs of light, of shade and of fog, and compares chords with closed forms.
 #[derive(Parser)]
 #[command(mut_arg("pixels", |pixels| pixels.default_value("384x144")))]
-#[command(mut_arg("samples", |samples| samples.default_value("16")))]
+#[command(mut_arg("samples", |samples| samples.default_value("40")))]
 struct Arguments {
     #[command(flatten)]
     shot: shot::Shot,
