@@ -137,19 +137,25 @@ impl Axis {
         (((x - self.domain.0) * self.density) as u32 as usize).min(self.parts.len() - 1)
     }
 
-    /// The cell that holds `x`: its lower knot, of the end cells for places outside. A knot belongs to the cell above
-    /// it, the last one to the last cell.
+    /// The number of the cell that holds `x`, the end ones for places outside, and the knots at its ends. A knot belongs to
+    /// the cell above it, the last one to the last cell.
     ///
     /// Knots in other parts need not be looked at; where the knots are about even there is one to look at.
     #[inline]
-    pub(super) fn cell(&self, x: f64) -> usize {
+    pub(super) fn cell(&self, x: f64) -> (usize, [f64; 2]) {
         let part = self.part(x);
         if self.even {
-            let [low, high] = self.cells[part];
-            if low <= x && x < high {
-                return part;
+            let ends = self.cells[part];
+            if ends[0] <= x && x < ends[1] {
+                return (part, ends);
             }
         }
+        let cell = self.search(part, x);
+        (cell, self.cells[cell])
+    }
+
+    /// The cell that holds `x`, of those that have to do with a part.
+    fn search(&self, part: usize, x: f64) -> usize {
         let [below, end] = self.parts[part].map(|count| count as usize);
         if end - below > 4 {
             return below + self.knots[below + 1..=end].partition_point(|&knot| knot <= x);
@@ -161,17 +167,23 @@ impl Axis {
         cell
     }
 
-    /// Lower knot and width of a cell.
+    /// The knots at the ends of a cell.
     #[inline]
-    pub(super) fn extent(&self, cell: usize) -> (f64, f64) {
-        let [low, high] = self.cells[cell];
-        (low, high - low)
+    pub(super) fn ends(&self, cell: usize) -> [f64; 2] {
+        self.cells[cell]
+    }
+
+    /// The mean width of the cells, whatever their number.
+    pub(super) fn mean_width(&self) -> f64 {
+        let cells = (self.knots.len() - 1) as f64;
+        self.domain.1 / cells - self.domain.0 / cells
     }
 
     /// Width of a cell.
     #[inline]
     pub(super) fn width(&self, cell: usize) -> f64 {
-        self.extent(cell).1
+        let [low, high] = self.cells[cell];
+        high - low
     }
 }
 
@@ -210,7 +222,7 @@ mod tests {
         let beside = axis.knots.iter().flat_map(|&x| [x.next_down(), x, x.next_up()]);
         let between = axis.knots.windows(2).map(|pair| 0.5 * pair[0] + 0.5 * pair[1]);
         let outside = [f64::NEG_INFINITY, -f64::MAX, f64::MAX, f64::INFINITY];
-        beside.chain(between).chain(outside).all(|x| axis.cell(x) == bisected(axis, x))
+        beside.chain(between).chain(outside).all(|x| axis.cell(x).0 == bisected(axis, x))
     }
 
     #[test]
@@ -252,7 +264,7 @@ mod tests {
             prop_assume!(knots.len() > 1);
             let axis = Axis::new("x", &knots).unwrap();
             prop_assert!(finds(&axis));
-            prop_assert_eq!(axis.cell(x), bisected(&axis, x));
+            prop_assert_eq!(axis.cell(x).0, bisected(&axis, x));
         }
     }
 }

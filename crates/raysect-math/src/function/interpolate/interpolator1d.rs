@@ -69,8 +69,8 @@ impl Interpolator1DArray {
         if !self.axis.holds(x) {
             return self.outside(x, order);
         }
-        let cell = self.axis.cell(x);
-        let (low, width) = self.axis.extent(cell);
+        let (cell, [low, high]) = self.axis.cell(x);
+        let width = high - low;
         let t = (x - low) / width;
         let value = |weights: [f64; 2]| weights[0] * self.values[cell] + weights[1] * self.values[cell + 1];
         let normalised = if self.slopes.is_empty() {

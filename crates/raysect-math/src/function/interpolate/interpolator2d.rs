@@ -1,6 +1,7 @@
 use super::super::contract::{Function, finite};
 use super::axis::{Axis, check_values};
-use super::stencil::{StencilAxis, cubic2};
+use super::grid_axis::GridAxis;
+use super::nodes::{Node2, cubic2, nodes2};
 use super::{Extrapolation, Interpolation};
 use crate::MathError;
 
@@ -10,6 +11,8 @@ use crate::MathError;
 /// x and y (at the edges those of the line to the neighbour), and the mixed derivatives
 /// (f₊₊ − f₊₋ − f₋₊ + f₋₋) / (Δx Δy) of the knots on both sides. Surface and slopes are continuous. Polynomials of the
 /// second degree come back but for the cells at the edges; if the knots are even, so do their products, such as x² y².
+///
+/// A cubic table keeps four numbers for each knot: the value and its derivatives.
 ///
 /// Outside the grid there is no value (NaN) unless [`extrapolate`](Self::extrapolate) gives it one.
 ///
@@ -23,9 +26,16 @@ use crate::MathError;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interpolator2DArray {
-    x: StencilAxis,
-    y: StencilAxis,
-    values: Vec<f64>,
+    x: GridAxis,
+    y: GridAxis,
+    table: Table,
+}
+
+/// What is known at the knots.
+#[derive(Debug, Clone, PartialEq)]
+enum Table {
+    Linear(Vec<f64>),
+    Cubic(Vec<Node2>),
 }
 
 impl Interpolator2DArray {
@@ -36,9 +46,13 @@ impl Interpolator2DArray {
     /// numbers that are not finite: [`MathError::TooFewKnots`], [`MathError::KnotsNotAscending`],
     /// [`MathError::TableSize`], [`MathError::TableNotFinite`].
     pub fn new(x: &[f64], y: &[f64], f: &[f64], interpolation: Interpolation) -> Result<Self, MathError> {
-        let (x, y) = (StencilAxis::new("x", x, interpolation)?, StencilAxis::new("y", y, interpolation)?);
+        let (x, y) = (GridAxis::new("x", x)?, GridAxis::new("y", y)?);
         check_values(&[x.axis().len(), y.axis().len()], f)?;
-        Ok(Self { x, y, values: f.to_vec() })
+        let table = match interpolation {
+            Interpolation::Linear => Table::Linear(f.to_vec()),
+            Interpolation::Cubic => Table::Cubic(nodes2(f, [x.axis(), y.axis()])),
+        };
+        Ok(Self { x, y, table })
     }
 
     /// With values up to a range beyond the first and last knot of each axis [units of x and y], infinity for everywhere.
@@ -77,14 +91,17 @@ impl Interpolator2DArray {
     #[inline(always)]
     fn piece(&self, (x, y): (f64, f64), (order_x, order_y): (u32, u32)) -> f64 {
         let columns = self.y.axis().len();
-        if self.x.is_linear() {
-            let (a, b) = (self.x.pair(x, order_x), self.y.pair(y, order_y));
-            let start = a.first * columns + b.first;
-            let corners = &self.values[start..][..columns + 2];
-            let low = b.along(corners[0], corners[1]);
-            return a.along(low, b.along(corners[columns], corners[columns + 1]));
+        match &self.table {
+            Table::Linear(values) => {
+                let (a, b) = (self.x.linear(x, order_x), self.y.linear(y, order_y));
+                let corners = &values[a.first * columns + b.first..][..columns + 2];
+                let low = b.along(corners[0], corners[1]);
+                a.along(low, b.along(corners[columns], corners[columns + 1]))
+            }
+            Table::Cubic(nodes) => {
+                cubic2(nodes, columns, &self.x.cubic(x, order_x), &self.y.cubic(y, order_y))
+            }
         }
-        cubic2(&self.values, columns, &self.x.stencil(x, order_x), &self.y.stencil(y, order_y))
     }
 }
 

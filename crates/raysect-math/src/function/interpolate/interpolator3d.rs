@@ -1,6 +1,7 @@
 use super::super::contract::{Function, finite};
 use super::axis::{Axis, check_values};
-use super::stencil::{StencilAxis, cubic3};
+use super::grid_axis::GridAxis;
+use super::nodes::{Node3, cubic3, nodes3};
 use super::{Extrapolation, Interpolation};
 use crate::MathError;
 
@@ -8,7 +9,7 @@ use crate::MathError;
 ///
 /// Cubic pieces are made as in [`Interpolator2DArray`](super::Interpolator2DArray), with mixed derivatives of two and
 /// of all three variables. Outside the grid there is no value (NaN) unless [`extrapolate`](Self::extrapolate) gives it
-/// one.
+/// one. A cubic table keeps eight numbers for each knot: the value and its derivatives.
 ///
 /// ```
 /// use raysect_math::function::{Arg, Extrapolation, Function, Interpolation, Interpolator3DArray, sample3d};
@@ -21,10 +22,17 @@ use crate::MathError;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interpolator3DArray {
-    x: StencilAxis,
-    y: StencilAxis,
-    z: StencilAxis,
-    values: Vec<f64>,
+    x: GridAxis,
+    y: GridAxis,
+    z: GridAxis,
+    table: Table,
+}
+
+/// What is known at the knots.
+#[derive(Debug, Clone, PartialEq)]
+enum Table {
+    Linear(Vec<f64>),
+    Cubic(Vec<Node3>),
 }
 
 impl Interpolator3DArray {
@@ -41,11 +49,15 @@ impl Interpolator3DArray {
         f: &[f64],
         interpolation: Interpolation,
     ) -> Result<Self, MathError> {
-        let x = StencilAxis::new("x", x, interpolation)?;
-        let y = StencilAxis::new("y", y, interpolation)?;
-        let z = StencilAxis::new("z", z, interpolation)?;
+        let x = GridAxis::new("x", x)?;
+        let y = GridAxis::new("y", y)?;
+        let z = GridAxis::new("z", z)?;
         check_values(&[x.axis().len(), y.axis().len(), z.axis().len()], f)?;
-        Ok(Self { x, y, z, values: f.to_vec() })
+        let table = match interpolation {
+            Interpolation::Linear => Table::Linear(f.to_vec()),
+            Interpolation::Cubic => Table::Cubic(nodes3(f, [x.axis(), y.axis(), z.axis()])),
+        };
+        Ok(Self { x, y, z, table })
     }
 
     /// With values up to a range beyond the first and last knot of each axis [units of x, y and z], infinity for
@@ -87,20 +99,30 @@ impl Interpolator3DArray {
     #[inline(always)]
     fn piece(&self, at: (f64, f64, f64), orders: (u32, u32, u32)) -> f64 {
         let (rows, columns) = (self.y.axis().len(), self.z.axis().len());
-        if self.x.is_linear() {
-            let (a, b, c) =
-                (self.x.pair(at.0, orders.0), self.y.pair(at.1, orders.1), self.z.pair(at.2, orders.2));
-            let start = (a.first * rows + b.first) * columns + c.first;
-            let face = |start: usize| {
-                let corners = &self.values[start..][..columns + 2];
-                let low = c.along(corners[0], corners[1]);
-                b.along(low, c.along(corners[columns], corners[columns + 1]))
-            };
-            return a.along(face(start), face(start + rows * columns));
+        match &self.table {
+            Table::Linear(values) => {
+                let [a, b, c] = [
+                    self.x.linear(at.0, orders.0),
+                    self.y.linear(at.1, orders.1),
+                    self.z.linear(at.2, orders.2),
+                ];
+                let start = (a.first * rows + b.first) * columns + c.first;
+                let corners = &values[start..][..rows * columns + columns + 2];
+                let face = |start: usize| {
+                    let low = c.along(corners[start], corners[start + 1]);
+                    b.along(low, c.along(corners[start + columns], corners[start + columns + 1]))
+                };
+                a.along(face(0), face(rows * columns))
+            }
+            Table::Cubic(nodes) => {
+                let [a, b, c] = [
+                    self.x.cubic(at.0, orders.0),
+                    self.y.cubic(at.1, orders.1),
+                    self.z.cubic(at.2, orders.2),
+                ];
+                cubic3(nodes, [rows, columns], [&a, &b, &c])
+            }
         }
-        let (a, b, c) =
-            (self.x.stencil(at.0, orders.0), self.y.stencil(at.1, orders.1), self.z.stencil(at.2, orders.2));
-        cubic3(&self.values, [rows, columns], [&a, &b, &c])
     }
 }
 

@@ -1,13 +1,14 @@
 //! Curves and surfaces through values on grids.
 
 mod axis;
+mod grid_axis;
 mod hermite;
 mod interpolator1d;
 mod interpolator2d;
 mod interpolator3d;
 mod kind;
+mod nodes;
 mod slopes;
-mod stencil;
 mod structure;
 #[cfg(test)]
 mod tests1d;
