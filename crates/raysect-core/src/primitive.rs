@@ -148,7 +148,7 @@ impl Scratch {
 /// [`testing::check_primitive`](crate::testing::check_primitive) tests all of this:
 /// - `crossings` reports every crossing of the infinite line, in order. Those of a solid alternate between
 ///   entering and leaving, beginning with entering; a touch gives none or a pair.
-/// - `hit` and `hit_after` report what `crossings` reports.
+/// - `hit`, `hit_after` and `crossings_within` report what `crossings` reports.
 /// - `contains` agrees with the parity of the crossings.
 /// - The bounding box contains every surface point, under every affine map.
 pub trait Primitive: Send + Sync + 'static {

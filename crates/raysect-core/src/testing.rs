@@ -62,6 +62,7 @@ impl Checker<'_> {
         self.shape.crossings(ray, &mut self.scratch, &mut all);
         self.check_order(&all)?;
         self.check_hits(ray, &all)?;
+        self.check_within(ray, &all)?;
         for (index, crossing) in all.iter().enumerate() {
             self.check_surface(ray, crossing, bounds)?;
             if self.shape.is_solid() {
@@ -101,6 +102,31 @@ impl Checker<'_> {
             let short = Interval::new(0.0, first.distance * (1.0 - 1e-9));
             if first.distance > 0.0 && self.shape.hit(ray, short, &mut self.scratch).is_some() {
                 return Err(format!("a hit beyond the end of the interval {short:?}"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Between any two places that are clear of crossings, the shape says the same when it is asked for no more.
+    fn check_within(&mut self, ray: &Ray, all: &[Crossing]) -> Result<(), String> {
+        let step = self.size / ray.direction.length();
+        let mut places = vec![all.first().map_or(0.0, |c| c.distance) - step];
+        places.extend(all.windows(2).map(|pair| 0.5 * (pair[0].distance + pair[1].distance)));
+        places.push(all.last().map_or(0.0, |c| c.distance) + step);
+        for (index, &min) in places.iter().enumerate() {
+            for &max in &places[index + 1..] {
+                let within = Interval::new(min, max);
+                let mut found = Vec::new();
+                self.shape.crossings_within(ray, within, &mut self.scratch, &mut found);
+                self.check_order(&found)?;
+                let before = |list: &[Crossing]| list.iter().filter(|c| c.distance < min).count() % 2;
+                let inside = |list: &[Crossing]| -> Vec<Crossing> {
+                    list.iter().copied().filter(|c| within.contains(c.distance)).collect()
+                };
+                let starts_alike = !self.shape.is_solid() || before(&found) == before(all);
+                if inside(&found) != inside(all) || !starts_alike {
+                    return Err(format!("crossings within {within:?} are {found:?}, in all {all:?}"));
+                }
             }
         }
         Ok(())
@@ -371,6 +397,42 @@ mod tests {
         fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
             self.0.surface(ray, crossing)
         }
+    }
+
+    /// A ball that forgets what it leaves when it is asked for an interval, or where an interval begins.
+    struct Forgetful(Ball, fn(&mut Vec<Crossing>, Interval));
+
+    impl Primitive for Forgetful {
+        fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
+            self.0.bounding_box(m)
+        }
+        fn contains(&self, point: Point3D) -> bool {
+            self.0.contains(point)
+        }
+        fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
+            self.0.crossings(ray, scratch, out);
+        }
+        fn crossings_within(&self, ray: &Ray, within: Interval, s: &mut Scratch, out: &mut Vec<Crossing>) {
+            self.0.crossings(ray, s, out);
+            (self.1)(out, within);
+        }
+        fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
+            self.0.surface(ray, crossing)
+        }
+    }
+
+    #[test]
+    fn shapes_that_forget_crossings_of_an_interval_are_found_out() {
+        let passes = |what| check_primitive(&Forgetful(Ball::new(1.0), what), 200, 2).is_ok();
+        assert!(passes(|_, _| ()));
+        // A pair that lies before or behind may be left out.
+        assert!(passes(|all, within| {
+            if all.iter().all(|c| c.distance < within.min) || all.iter().all(|c| c.distance > within.max) {
+                all.clear();
+            }
+        }));
+        assert!(!passes(|all, _| all.clear()));
+        assert!(!passes(|all, within| all.retain(|c| within.contains(c.distance))));
     }
 
     #[test]
