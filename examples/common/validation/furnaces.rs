@@ -123,5 +123,8 @@ fn integrating_sphere(case: &Case, bench: Bench) -> Result<Reading, String> {
     let height = case.number("h")?;
     let port = cuboid([-1.1, -1.1, height], [1.1, 1.1, 1.1])?.material(lamp());
     let scene = world([ball([0.0; 3], 1.0, bench.lambert(case.number("rho")?))?, port])?;
-    along(bench, &scene, [0.05, 0.02, -0.1], [0.2, -0.1, -1.0])
+    // From below the port, however deep it lies.
+    let below = 0.5 * (height - 1.0);
+    let off = 0.1 * (1.0 - below * below).max(0.0).sqrt();
+    along(bench, &scene, [off, 0.4 * off, below], [0.2, -0.1, -1.0])
 }
