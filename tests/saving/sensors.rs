@@ -49,6 +49,11 @@ fn every_sensor_comes_back() {
     comes_back(&MeshCamera::new(&ball).unwrap().surface_offset(1e-6).unwrap());
     let line = Sightline::new(Point3D::new(0.1, 0.2, 0.3), Vector3D::new(1.0, 2.0, 3.0)).unwrap();
     comes_back(&SightlineArray::new([line, line.acceptance(1.1).unwrap().aperture(1e-6).unwrap()]).unwrap());
+    comes_back(&Pixel::new(0.1, 0.2).unwrap().etendue_without_cosine(true));
+    comes_back(&CcdArray::new((7, 3), 0.1).unwrap().etendue_without_cosine(true));
+    comes_back(&FibreOptic::new(7.7, 1e-3).unwrap().etendue_without_cosine(true));
+    comes_back(&MeshPixel::new(&ball).unwrap().etendue_without_cosine(true).surface_offset(1e-6).unwrap());
+    comes_back(&MeshCamera::new(&ball).unwrap().etendue_without_cosine(true));
     comes_back(&Pixel::new(0.1, 0.2).unwrap().targets(targets(), 0.7).unwrap());
     comes_back(&CcdArray::new((2, 2), 0.1).unwrap().targets(targets(), 0.3).unwrap());
     comes_back(&PinholeCamera::new((2, 2), 33.3).unwrap().targets(targets(), 0.3).unwrap());

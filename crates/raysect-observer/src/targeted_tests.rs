@@ -43,9 +43,9 @@ fn every_target() -> Vec<Target> {
 /// Asserts that targets leave the étendue as it is.
 #[track_caller]
 fn keeps_its_etendue<S: Sensor>(observer: Observer<S>) {
-    check_sensor(observer.sensor(), 20_000, 3).unwrap();
+    check_sensor(observer.sensor(), 10_000, 3).unwrap();
     let targeted = observer.targets(every_target(), 0.7).unwrap();
-    check_sensor(targeted.sensor(), 60_000, 3).unwrap();
+    check_sensor(targeted.sensor(), 15_000, 3).unwrap();
 }
 
 #[test]

@@ -98,11 +98,8 @@ impl Sensor for Fibre {
     }
 
     fn etendue(&self, _: usize) -> Option<f64> {
-        let counted = if self.counting.without_cosine {
-            self.solid_angle()
-        } else {
-            etendue_of_cone(self.acceptance)
-        };
+        let counted =
+            if self.counting.without_cosine { self.solid_angle() } else { etendue_of_cone(self.acceptance) };
         Some(self.collection_area() * counted)
     }
 

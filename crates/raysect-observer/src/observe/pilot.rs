@@ -13,8 +13,9 @@ impl<S: Sensor> Session<'_, S> {
             let goal = |(pixel, &goal): (usize, &u64)| goal.min(frames[0].lane_samples(lane, pixel) + count);
             let next: Vec<u64> = goals.iter().enumerate().map(goal).collect();
             let before = self.meter.elapsed().as_secs_f64();
-            self.pass(frames, PILOT_LANE, &next)?;
-            self.show(frames)?;
+            if self.pass(frames, PILOT_LANE, &next)? > 0 {
+                self.show(frames)?;
+            }
             if next == goals || self.report.cancelled {
                 return Ok(());
             }
@@ -39,3 +40,7 @@ impl<S: Sensor> Session<'_, S> {
         shown
     }
 }
+
+#[cfg(test)]
+#[path = "pilot_tests.rs"]
+mod tests;
