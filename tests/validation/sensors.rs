@@ -64,7 +64,7 @@ fn quantities_that_no_sensor_reads_are_not_read() {
         measure(&case, 1, None).map(|reading| reading.unwrap().mean)
     };
     assert_eq!(quantity("colour"), None);
-    assert_eq!(quantity("radiance of any pixel"), Some(1.0));
+    assert!(quantity("radiance of any pixel").is_some_and(|radiance| (radiance - 1.0).abs() < 1e-12));
     assert_eq!(quantity("total power"), quantity("power"));
 }
 
