@@ -40,7 +40,7 @@ fn every_class_of_sensor_has_its_answers_and_no_others() {
 /// The first case with a text of it changed.
 fn changed(old: &str, new: &str) -> Case {
     let text = CASES.replacen(old, new, 1);
-    assert_ne!(text, CASES);
+    assert!(CASES.contains(old));
     read_cases(&text).unwrap().remove(0)
 }
 
