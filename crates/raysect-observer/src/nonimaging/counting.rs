@@ -38,9 +38,9 @@ macro_rules! counting_setting {
             /// Takes area times solid angle, without the cosine, for the étendue, as Raysect does. Off by default.
             ///
             /// It is for comparisons with Raysect only. The power that is measured does not change. What is called a
-            /// radiance is too small, half of the radiance for a sensor of the half space (Raysect weighs each of its
-            /// rays by 0.5), (1 + cos θ) / 2 of it for a cone of half angle θ; and
-            /// [`check_sensor`](crate::testing::check_sensor) refuses the sensor.
+            /// radiance is too small, half of the radiance for a sensor of the half space like a
+            /// [`Pixel`](crate::Pixel) (Raysect weighs each of its rays by 0.5), (1 + cos θ) / 2 of it for a cone of half
+            /// angle θ; and [`check_sensor`](crate::testing::check_sensor) refuses the sensor.
             #[doc(alias = "sensitivity")]
             pub fn etendue_without_cosine(mut self, without_cosine: bool) -> Self {
                 self.sensor_mut().counting.without_cosine = without_cosine;
