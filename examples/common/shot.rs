@@ -19,6 +19,10 @@ pub(crate) struct Shot {
     /// The same seed gives the same bits.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Goes on from the statepoint beside the picture, if there is one, and writes it after each pass, so that a run that
+    /// is killed can be resumed by the same command.
+    #[arg(long)]
+    resume: bool,
     /// Folder of the picture.
     #[arg(long, default_value = ".")]
     out: PathBuf,
@@ -41,15 +45,22 @@ impl Shot {
         from: AffineMatrix3D,
         view: f64,
     ) -> raysect::Result<()> {
-        let camera = PinholeCamera::new(self.pixels, view)?
+        std::fs::create_dir_all(&self.out)?;
+        let picture = self.out.join(name).with_extension("png");
+        let mut camera = PinholeCamera::new(self.pixels, view)?
             .transform(from)
             .pixel_samples(self.samples)
             .seed(self.seed)
             .quiet(self.quiet);
-        let mut rgb = RgbPipeline2D::new().sensitivity(self.sensitivity)?;
-        let report = camera.observe(world, &mut rgb)?;
-        std::fs::create_dir_all(&self.out)?;
-        let picture = self.out.join(name).with_extension("png");
+        let mut rgb = RgbPipeline2D::new().sensitivity(self.sensitivity)?.preview(&picture);
+        if self.resume {
+            let statepoint = picture.with_extension("statepoint");
+            camera = camera.statepoint(&statepoint);
+            if camera.resume(world, &mut rgb)? && !self.quiet {
+                println!("going on from {}", statepoint.display());
+            }
+        }
+        let report = camera.observe_until(world, &mut rgb, Stop::samples(self.samples))?;
         rgb.save(&picture)?;
         if !self.quiet {
             println!("{report}\n");

@@ -16,6 +16,7 @@ mod panics;
 mod parallel;
 mod passes;
 mod refusals;
+mod regions;
 mod replays;
 mod statepoints;
 mod world;

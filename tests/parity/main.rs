@@ -8,6 +8,8 @@
 //! tori by 50-digit arithmetic and those of meshes in double precision by a search through all triangles, since
 //! Raysect's own are good to 1e-3 and 1e-6 only.
 //!
+//! What sensors of Raysect 0.9.1 read in uniform surroundings stands in `recorded_sensors.rs`.
+//!
 //! `tests/data/values.json` holds values by Raysect 0.9.1 with the relative tolerances within which they are right.
 
 #[path = "../../examples/common/comparison.rs"]
@@ -32,6 +34,7 @@ mod formats;
 mod frames;
 mod migration;
 mod recorded_crossings;
+mod recorded_sensors;
 mod recorded_spectra;
 mod recorded_values;
 mod spectra;

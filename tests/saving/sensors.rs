@@ -1,5 +1,7 @@
 //! Every sensor of the library beside a world.
 
+use std::sync::Arc;
+
 use raysect::observer::Sightline;
 use raysect::prelude::*;
 use raysect::save::{SceneWriter, Storable};
@@ -18,10 +20,13 @@ fn opencv() -> OpenCvCamera {
     camera.extrinsics([0.1, 0.2, 0.3], [1.0, 2.0, 3.0]).unwrap()
 }
 
-fn targets() -> [Target; 2] {
+fn targets() -> [Target; 4] {
+    let bar: Arc<dyn Primitive> = Arc::new(Cuboid::centred(1.0 / 3.0, 0.1, 2.0).unwrap());
     [
         Target::sphere(Point3D::new(0.0, 1.0 / 3.0, 2.0), 0.3).unwrap(),
         Target::rectangle(Point3D::new(0.5, 0.0, 1.0), [Vector3D::X, Vector3D::Y]).unwrap(),
+        Target::disk(Point3D::new(0.5, 0.0, 1.0), Vector3D::new(0.1, 0.0, 1.0), 0.2).unwrap(),
+        Target::shape(&bar, translate(0.0, 0.1, 1.0) * rotate(10.0, 20.0, 30.0)).unwrap(),
     ]
 }
 
@@ -44,6 +49,11 @@ fn every_sensor_comes_back() {
     comes_back(&MeshCamera::new(&ball).unwrap().surface_offset(1e-6).unwrap());
     let line = Sightline::new(Point3D::new(0.1, 0.2, 0.3), Vector3D::new(1.0, 2.0, 3.0)).unwrap();
     comes_back(&SightlineArray::new([line, line.acceptance(1.1).unwrap().aperture(1e-6).unwrap()]).unwrap());
+    comes_back(&Pixel::new(0.1, 0.2).unwrap().etendue_without_cosine(true));
+    comes_back(&CcdArray::new((7, 3), 0.1).unwrap().etendue_without_cosine(true));
+    comes_back(&FibreOptic::new(7.7, 1e-3).unwrap().etendue_without_cosine(true));
+    comes_back(&MeshPixel::new(&ball).unwrap().etendue_without_cosine(true).surface_offset(1e-6).unwrap());
+    comes_back(&MeshCamera::new(&ball).unwrap().etendue_without_cosine(true));
     comes_back(&Pixel::new(0.1, 0.2).unwrap().targets(targets(), 0.7).unwrap());
     comes_back(&CcdArray::new((2, 2), 0.1).unwrap().targets(targets(), 0.3).unwrap());
     comes_back(&PinholeCamera::new((2, 2), 33.3).unwrap().targets(targets(), 0.3).unwrap());
@@ -75,7 +85,7 @@ fn settings_that_no_sensor_has_are_refused() {
     );
     let aimed = Pixel::new(0.1, 0.2).unwrap().targets(targets(), 0.7).unwrap();
     assert!(refusal(&aimed, "\"Rectangle\"", "\"Ccd\"").contains("targeted_sensor"));
-    assert!(refusal(&aimed, "\"target_count\": 2", "\"target_count\": 1").contains("target_1"));
+    assert!(refusal(&aimed, "\"target_count\": 4", "\"target_count\": 3").contains("target_3"));
     let ortho = OrthographicCamera::new((3, 2), 0.7).unwrap().etendue(1e-9).unwrap();
     assert!(refusal(&ortho, "\"etendue\"", "\"aperture\"").contains("aperture"));
 }

@@ -75,6 +75,7 @@ mod statepoint;
 mod stop;
 mod strata;
 mod target;
+mod target_shape;
 mod targeted;
 pub mod testing;
 

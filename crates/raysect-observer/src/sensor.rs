@@ -112,7 +112,11 @@ pub(crate) fn radiance_weight<S: Sensor + ?Sized>(sensor: &S, pixel: usize, ray:
     let (origin, direction) = (ray.origin, ray.direction);
     let response = sensor.response(pixel, origin, direction);
     match (sensor.pdf(pixel, origin, direction), sensor.etendue(pixel)) {
-        (Some(pdf), Some(etendue)) => response * sensor.cosine(pixel, origin, direction) / (pdf * etendue),
+        (Some(pdf), Some(etendue)) => {
+            let seen = response * sensor.cosine(pixel, origin, direction);
+            // A direction below the horizon that misses its target by rounding has no density either.
+            if seen == 0.0 { 0.0 } else { seen / (pdf * etendue) }
+        }
         _ => response,
     }
 }

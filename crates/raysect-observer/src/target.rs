@@ -1,22 +1,34 @@
-use raysect_math::{Cone, Frame, MathError, Point3D, SphericalRectangleSampler, Vector3D};
+use std::sync::Arc;
+
+use raysect_core::Primitive;
+use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter};
+use raysect_math::sampling::uniforms;
+use raysect_math::{
+    AffineMatrix3D, Cone, Frame, MathError, Point3D, Rng, SphericalDiskSampler, SphericalRectangleSampler,
+    Vector3D,
+};
 
 use crate::ObserverError;
+use crate::target_shape::PlacedShape;
 
 /// Something that a [`Targeted`](crate::Targeted) sensor aims at, in the observer's own space: directions towards it are
-/// uniform in the solid angle that it fills.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// uniform in the solid angle that it fills, or nearly so.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Target(Kind);
 
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 enum Kind {
     Sphere { centre: Point3D, radius: f64 },
     Rectangle { corner: Point3D, edges: [Vector3D; 2] },
+    Disk { centre: Point3D, normal: Vector3D, radius: f64 },
+    Shape(PlacedShape),
 }
 
-/// Directions towards a target from one point.
-pub(crate) enum Aim {
+/// Uniform directions towards a target from one point.
+enum Aim {
     Sphere(Frame, Cone),
     Rectangle(SphericalRectangleSampler),
+    Disk(SphericalDiskSampler),
 }
 
 impl Target {
@@ -47,11 +59,53 @@ impl Target {
         Ok(Self(Kind::Rectangle { corner, edges }))
     }
 
-    /// How it is aimed at from a point. From inside a sphere, or in the plane of a rectangle, not at all.
+    /// A flat disk around a centre [m], at right angles to a normal of any length, with a radius [m]: a round window, a
+    /// pinhole. A direction towards it takes longer to draw than one towards a rectangle, see [`SphericalDiskSampler`].
+    ///
+    /// # Errors
+    /// [`ObserverError::Math`] for a centre beyond 1e150 m, a radius outside 1e-150 … 1e150 m, or a normal without
+    /// direction.
+    pub fn disk(centre: Point3D, normal: Vector3D, radius: f64) -> Result<Self, ObserverError> {
+        Self::sphere(centre, radius)?;
+        normal.normalise()?;
+        Ok(Self(Kind::Disk { centre, normal, radius }))
+    }
+
+    /// A shape, with the map from its own space to that of the observer: what a bar, a plate or a tube fills is aimed at,
+    /// not a ball around it.
+    ///
+    /// Convex shapes that draw samples of their own are aimed at by these
+    /// ([`surface_sampling`](Primitive::surface_sampling)): spheres, cuboids, cylinders, cones and parabolas, and a user's
+    /// own. Of others, and of all if the map is not a similarity, it is the bounding sphere.
+    ///
+    /// # Errors
+    /// [`ObserverError::Math`] for a map without inverse, and as [`sphere`](Self::sphere) for the bounding sphere.
+    pub fn shape(shape: &Arc<dyn Primitive>, to_observer: AffineMatrix3D) -> Result<Self, ObserverError> {
+        let around = shape.bounding_sphere(&to_observer);
+        let around = Self::sphere(around.centre, around.radius)?;
+        Ok(PlacedShape::new(shape, to_observer)?.map_or(around, |placed| Self(Kind::Shape(placed))))
+    }
+
+    /// A direction from a point towards it. None from inside a sphere or another solid, or in the plane of what is flat.
+    pub(crate) fn sample(&self, from: Point3D, rng: &mut Rng) -> Option<Vector3D> {
+        match &self.0 {
+            Kind::Shape(placed) => placed.sample(from, rng),
+            _ => Some(self.aim(from)?.sample_at(uniforms(rng))),
+        }
+    }
+
+    /// Density of [`sample`](Self::sample) [1/sr]; none where there are none.
+    pub(crate) fn pdf(&self, from: Point3D, direction: Vector3D) -> Option<f64> {
+        match &self.0 {
+            Kind::Shape(placed) => placed.pdf(from, direction),
+            _ => Some(self.aim(from)?.pdf(direction)),
+        }
+    }
+
     #[inline]
-    pub(crate) fn aim(&self, from: Point3D) -> Option<Aim> {
-        match *self {
-            Self(Kind::Sphere { centre, radius }) => {
+    fn aim(&self, from: Point3D) -> Option<Aim> {
+        match self.0 {
+            Kind::Sphere { centre, radius } => {
                 let axis = from.vector_to(centre);
                 let distance = axis.length();
                 if distance <= radius {
@@ -59,51 +113,90 @@ impl Target {
                 }
                 Some(Aim::Sphere(Frame::from_z(axis.normalise().ok()?), Cone::of_sphere(radius, distance)))
             }
-            Self(Kind::Rectangle { corner, edges }) => {
+            Kind::Rectangle { corner, edges } => {
                 SphericalRectangleSampler::new(from, corner, edges).ok().map(Aim::Rectangle)
             }
+            Kind::Disk { centre, normal, radius } => {
+                SphericalDiskSampler::new(from, centre, normal, radius).ok().map(Aim::Disk)
+            }
+            Kind::Shape(_) => None,
         }
     }
 
-    /// Four numbers of a sphere, nine of a rectangle.
+    /// Numbers that tell it from others: four of a sphere, nine of a rectangle, seven of a disk.
     pub(crate) fn numbers(&self) -> Vec<f64> {
-        match self {
-            Self(Kind::Sphere { centre, radius }) => [&centre.to_array()[..], &[*radius]].concat(),
-            Self(Kind::Rectangle { corner, edges: [first, second] }) => {
+        match &self.0 {
+            Kind::Sphere { centre, radius } => [&centre.to_array()[..], &[*radius]].concat(),
+            Kind::Rectangle { corner, edges: [first, second] } => {
                 [corner.to_array(), first.to_array(), second.to_array()].concat()
             }
+            Kind::Disk { centre, normal, radius } => {
+                [&centre.to_array()[..], &normal.to_array(), &[*radius]].concat()
+            }
+            Kind::Shape(placed) => placed.numbers(),
         }
     }
 
-    /// From such numbers.
-    pub(crate) fn from_numbers(numbers: &[f64]) -> Result<Self, ObserverError> {
+    /// From the numbers of what is no shape.
+    fn from_numbers(numbers: &[f64]) -> Result<Self, ObserverError> {
         match *numbers {
             [x, y, z, radius] => Self::sphere(Point3D::new(x, y, z), radius),
+            [x, y, z, a, b, c, radius] => Self::disk(Point3D::new(x, y, z), Vector3D::new(a, b, c), radius),
             [x, y, z, a, b, c, d, e, f] => {
                 Self::rectangle(Point3D::new(x, y, z), [Vector3D::new(a, b, c), Vector3D::new(d, e, f)])
             }
             _ => {
                 let count = numbers.len() as f64;
-                let (name, range) = ("numbers of a target", "4 of a sphere, 9 of a rectangle");
+                let (name, range) = ("numbers of a target", "4 of a sphere, 7 of a disk, 9 of a rectangle");
                 Err(MathError::OutOfRange { value: count, name, unit: "", range }.into())
             }
         }
     }
+
+    /// Adds it to what is saved: its numbers, or a shape and its place.
+    pub(crate) fn save(
+        &self,
+        name: &str,
+        saved: Saved,
+        writer: &mut SceneWriter,
+    ) -> Result<Saved, SaveError> {
+        match &self.0 {
+            Kind::Shape(placed) => {
+                let shape = writer.shared_object(&placed.shape)?;
+                Ok(saved.reference(name, shape).transform(&place_of(name), &placed.to_sensor))
+            }
+            _ => Ok(saved.numbers(name, &self.numbers())),
+        }
+    }
+
+    pub(crate) fn load(name: &str, entry: &Entry<'_>) -> Result<Self, MakeError> {
+        if entry.has(&place_of(name)) {
+            let shape = entry.object::<dyn Primitive>(name)?;
+            return Ok(Self::shape(&shape, entry.transform(&place_of(name))?)?);
+        }
+        Ok(Self::from_numbers(&entry.numbers(name)?)?)
+    }
+}
+
+/// What the place of a shape is called in files.
+fn place_of(name: &str) -> String {
+    format!("{name}_place")
 }
 
 impl Aim {
     /// The direction for two uniforms in (0, 1).
     #[inline]
-    pub(crate) fn sample_at(&self, u: [f64; 2]) -> Vector3D {
+    fn sample_at(&self, u: [f64; 2]) -> Vector3D {
         match self {
             Self::Sphere(frame, cone) => frame.to_world(cone.sample_at(u)),
             Self::Rectangle(rectangle) => rectangle.sample_at(u),
+            Self::Disk(disk) => disk.sample_at(u),
         }
     }
 
     /// Its density [1/sr]; the border of a cone is widened by what turning a direction there and back may move it.
     #[inline]
-    pub(crate) fn pdf(&self, direction: Vector3D) -> f64 {
+    fn pdf(&self, direction: Vector3D) -> f64 {
         match self {
             Self::Sphere(frame, cone) => {
                 let v = frame.to_local(direction);
@@ -114,44 +207,11 @@ impl Aim {
                 if inside { 1.0 / cone.solid_angle() } else { 0.0 }
             }
             Self::Rectangle(rectangle) => rectangle.pdf(direction),
+            Self::Disk(disk) => disk.pdf(direction),
         }
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use raysect_math::Rng;
-    use raysect_math::sampling::uniforms;
-
-    #[test]
-    fn directions_meet_the_target_and_have_a_density() {
-        let mut rng = Rng::new(1);
-        let ball = Target::sphere(Point3D::new(1.0, 2.0, 3.0), 0.5).unwrap();
-        let port = Target::rectangle(Point3D::new(1.0, 0.0, 2.0), [Vector3D::X, Vector3D::Y * 0.1]).unwrap();
-        for target in [ball, port] {
-            let aim = target.aim(Point3D::ORIGIN).unwrap();
-            for _ in 0..1000 {
-                let d = aim.sample_at(uniforms(&mut rng));
-                assert!(aim.pdf(d) > 0.0 && aim.pdf(-d) == 0.0);
-            }
-            assert_eq!(Target::from_numbers(&target.numbers()).unwrap(), target);
-        }
-        assert!(ball.aim(Point3D::new(1.0, 2.1, 3.0)).is_none());
-        assert!(port.aim(Point3D::new(0.0, 5.0, 2.0)).is_none());
-    }
-
-    #[test]
-    fn impossible_targets_are_refused() {
-        assert!(Target::sphere(Point3D::ORIGIN, 0.0).is_err());
-        assert!(Target::sphere(Point3D::new(f64::NAN, 0.0, 0.0), 1.0).is_err());
-        for edges in [
-            [Vector3D::X, Vector3D::X],
-            [Vector3D::X, Vector3D::ZERO],
-            [Vector3D::X, Vector3D::new(1.0, 1.0, 0.0)],
-        ] {
-            assert!(Target::rectangle(Point3D::ORIGIN, edges).is_err());
-        }
-        assert!(Target::from_numbers(&[1.0; 5]).is_err());
-    }
-}
+#[path = "target_tests.rs"]
+mod tests;

@@ -2,7 +2,6 @@ use std::sync::Arc;
 
 use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
 use raysect_core::{NodeId, Ray};
-use raysect_math::sampling::uniforms;
 use raysect_math::{MathError, Point3D, Rng, Vector3D};
 use raysect_optical::World;
 
@@ -27,8 +26,8 @@ pub struct Targeted<S> {
 impl<S: Sensor> Observer<S> {
     /// Aims a share `probability` of all rays at targets, each as often as the others.
     ///
-    /// Targets are in the observer's own space and move with it. From a point that lies inside a target, the sensor's own
-    /// directions take the place of those towards it.
+    /// Targets are in the observer's own space and move with it. From a point that lies inside a target, or in its plane if
+    /// it is flat, the sensor's own directions take the place of those towards it.
     ///
     /// # Errors
     /// [`ObserverError::Math`] without targets, or for a probability outside 0 … 1: both are excluded, since a sensor that
@@ -44,9 +43,9 @@ impl<S: Sensor> Observer<S> {
         self.try_map(|inner| Targeted::of(inner, targets, probability))
     }
 
-    /// Aims a share `probability` of all rays at the bounding spheres of shapes of a world, where observer and shapes are
-    /// now. A ball is its own bounding sphere. What is measured stays right if they move apart later, but the rays go where
-    /// the shapes have been.
+    /// Aims a share `probability` of all rays at shapes of a world, where observer and shapes are now: at what they fill, or
+    /// at their bounding spheres ([`Target::shape`]). What is measured stays right if they move apart later, but the rays go
+    /// where the shapes have been.
     ///
     /// # Errors
     /// As [`targets`](Self::targets); [`ObserverError::NoShape`] for a node without shape,
@@ -60,8 +59,7 @@ impl<S: Sensor> Observer<S> {
         let to_sensor = self.to_root(world)?.inverse()?;
         let target = |&node: &NodeId| {
             let shape = world.primitive(node)?.ok_or_else(|| ObserverError::NoShape(node.to_string()))?;
-            let sphere = shape.bounding_sphere(&(to_sensor * world.to_root(node)?));
-            Target::sphere(sphere.centre, sphere.radius)
+            Target::shape(shape, to_sensor * world.to_root(node)?)
         };
         let targets = nodes.iter().map(target).collect::<Result<Vec<_>, ObserverError>>()?;
         self.targets(targets, probability)
@@ -95,7 +93,7 @@ impl<S: Sensor> Targeted<S> {
     /// Density of the mixture [1/sr], and that of the sensor alone.
     fn densities(&self, pixel: usize, origin: Point3D, direction: Vector3D) -> (f64, f64) {
         let own = self.inner.direction_pdf(pixel, origin, direction).unwrap_or(0.0);
-        let towards = |target: &Target| target.aim(origin).map_or(own, |aim| aim.pdf(direction));
+        let towards = |target: &Target| target.pdf(origin, direction).unwrap_or(own);
         let aimed = self.targets.iter().map(towards).sum::<f64>() / self.targets.len() as f64;
         ((1.0 - self.probability) * own + self.probability * aimed, own)
     }
@@ -114,8 +112,8 @@ impl<S: Sensor> Sensor for Targeted<S> {
         }
         // What is left of the number chooses the target.
         let chosen = (u / self.probability * self.targets.len() as f64) as usize;
-        match self.targets[chosen.min(self.targets.len() - 1)].aim(ray.origin) {
-            Some(aim) => Ray::new(ray.origin, aim.sample_at(uniforms(rng))),
+        match self.targets[chosen.min(self.targets.len() - 1)].sample(ray.origin, rng) {
+            Some(direction) => Ray::new(ray.origin, direction),
             None => ray,
         }
     }
@@ -173,7 +171,7 @@ impl<S: Sensor + Storable> Storable for Targeted<S> {
             .number("target_probability", self.probability)
             .count("target_count", self.targets.len() as u64);
         for (index, target) in self.targets.iter().enumerate() {
-            saved = saved.numbers(&format!("target_{index}"), &target.numbers());
+            saved = target.save(&format!("target_{index}"), saved, writer)?;
         }
         Ok(saved)
     }
@@ -183,7 +181,7 @@ impl<S: Sensor + Storable> Storable for Targeted<S> {
         let inner = S::load(entry)?;
         let mut targets = Vec::new();
         for index in 0..entry.count("target_count")? {
-            targets.push(Target::from_numbers(&entry.numbers(&format!("target_{index}"))?)?);
+            targets.push(Target::load(&format!("target_{index}"), entry)?);
         }
         Ok(Self::of(inner, targets, entry.number("target_probability")?)?)
     }

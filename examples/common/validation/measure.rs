@@ -66,7 +66,7 @@ pub(super) enum Quantity {
     Power,
 }
 
-/// The reading of every pixel of a sensor, in a bin of 1 nm.
+/// The reading of every pixel that a sensor observes, in a bin of 1 nm.
 pub(super) fn pixels<S: Sensor>(
     bench: Bench,
     world: &World,
@@ -101,7 +101,7 @@ fn readings<S: Sensor>(
         let found = frame.pixel(p, 0);
         Reading::of(found.value, found.error)
     };
-    Ok((0..observer.sensor().shape().pixels()).map(pixel).collect())
+    Ok(frame.observed_pixels().map(pixel).collect())
 }
 
 /// The irradiance [W/m²] at the origin of a space, on a plane that faces its z axis, from what lies within a target.

@@ -7,6 +7,7 @@ mod colours;
 mod factors;
 mod fault;
 mod furnaces;
+mod instruments;
 mod lenses;
 mod measure;
 mod plates;

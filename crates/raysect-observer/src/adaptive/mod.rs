@@ -154,9 +154,16 @@ impl AdaptiveSampling {
         Ok(Self { min_samples: Some(samples), ..self })
     }
 
-    /// With no more than the least number of samples for pixels whose relative error the pilot foresees to be smaller,
-    /// 0 … 1: if that holds of all, the observation ends before its number of samples. It has no influence on
-    /// [`total`](Self::total).
+    /// With no more than the least number of samples for pixels whose relative error, the standard error over the mean,
+    /// the pilot foresees to be smaller, 0 … 1: if that holds of all, the observation ends before its number of samples. 0
+    /// by default. It has no influence on [`total`](Self::total).
+    ///
+    /// Raysect's `cutoff` is the same limit of the same number. It is held against the error that a pixel has reached by
+    /// the samples that count, before each `observe`, and pixels that were below it by chance stay there; here it is held
+    /// against what the pilot foresees, so that the errors that are reached lie about it:
+    /// [`RenderReport::convergence`](crate::RenderReport::convergence) says whether the pilot foresaw it for all of them.
+    /// With 0, rendering by Raysect's sampler ends with `render_complete` practically never; here the number of samples
+    /// is the end.
     ///
     /// # Errors
     /// [`ObserverError::Math`] for another number.

@@ -1,11 +1,10 @@
-use std::f64::consts::PI;
-
 use raysect_core::Ray;
 use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
 use raysect_math::sampling::{hemisphere, uniforms};
 use raysect_math::{Point3D, Rng, Vector3D};
 
 use super::raster::Raster;
+use crate::nonimaging::{Counting, counting_setting};
 use crate::{FrameShape, Observer, ObserverError, Sensor, Targeted};
 
 /// A bare detector of square pixels in the plane z = 0: each point of it sees the whole half space z > 0.
@@ -31,7 +30,10 @@ pub type TargetedCcdArray = Observer<Targeted<Ccd>>;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ccd {
     raster: Raster,
+    counting: Counting,
 }
+
+counting_setting!(Ccd);
 
 /// What messages call the width of a pixel.
 const PITCH: (&str, &str) = ("width of a pixel", "m");
@@ -43,7 +45,7 @@ impl Observer<Ccd> {
     /// [`ObserverError::Math`] for no pixels or 2³² and more, or pixels outside 1e-150 … 1e150 m.
     pub fn new(pixels: (usize, usize), width: f64) -> Result<Self, ObserverError> {
         let raster = Raster::new(pixels, width / pixels.0.max(1) as f64, PITCH)?;
-        Ok(Self::with_sensor(Ccd { raster }))
+        Ok(Self::with_sensor(Ccd { raster, counting: Counting::default() }))
     }
 }
 
@@ -87,11 +89,12 @@ impl Sensor for Ccd {
 
     #[inline]
     fn etendue(&self, _: usize) -> Option<f64> {
-        Some(PI * self.pixel_area())
+        Some(self.counting.half_space() * self.pixel_area())
     }
 
     fn description(&self) -> String {
-        format!("{} of {}, pixels {:e} m wide", self.kind(), self.shape(), self.raster.pitch)
+        let (kind, shape, pitch) = (self.kind(), self.shape(), self.raster.pitch);
+        format!("{kind} of {shape}, pixels {pitch:e} m wide{}", self.counting.describe())
     }
 
     fn kind(&self) -> &'static str {
@@ -104,12 +107,13 @@ impl Storable for Ccd {
 
     fn save(&self, saved: Saved, _: &mut SceneWriter) -> Result<Saved, SaveError> {
         let saved = saved.count("columns", self.raster.columns as u64).count("rows", self.raster.rows as u64);
-        Ok(saved.number("pitch", self.raster.pitch))
+        Ok(self.counting.save(saved.number("pitch", self.raster.pitch)))
     }
 
     fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
         let pixels = (entry.integer("columns")?, entry.integer("rows")?);
-        Ok(Self { raster: Raster::new(pixels, entry.number("pitch")?, PITCH)? })
+        let raster = Raster::new(pixels, entry.number("pitch")?, PITCH)?;
+        Ok(Self { raster, counting: Counting::load(entry)? })
     }
 }
 
@@ -117,6 +121,7 @@ impl Storable for Ccd {
 mod tests {
     use super::*;
     use crate::testing::check_sensor;
+    use std::f64::consts::PI;
 
     #[test]
     fn the_etendue_of_a_pixel_is_pi_times_its_area() {

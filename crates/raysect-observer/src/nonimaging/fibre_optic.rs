@@ -5,13 +5,14 @@ use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storab
 use raysect_math::sampling::{disk, uniforms};
 use raysect_math::{ConeCosineSampler, MathError, Point2D, Point3D, Rng, Vector3D};
 
-use super::etendue_of_cone;
+use super::{Counting, counting_setting, etendue_of_cone};
 use crate::{FrameShape, Observer, ObserverError, Sensor};
 
 /// The tip of an optical fibre: a disk across z that accepts light within a cone.
 ///
 /// Its étendue is π r² π sin² θ. (Raysect counts the solid angle without its cosine, π r² 2π (1 − cos θ), for the
-/// étendue, so that its radiance is too small by (1 + cos θ) / 2; the power is the same.)
+/// étendue, so that its radiance is too small by (1 + cos θ) / 2; the power is the same;
+/// [`etendue_without_cosine`](Self::etendue_without_cosine) gives its numbers.)
 ///
 /// ```
 /// use raysect_observer::{FibreOptic, Sensor};
@@ -27,7 +28,10 @@ pub struct Fibre {
     acceptance: f64,
     radius: f64,
     cone: ConeCosineSampler,
+    counting: Counting,
 }
+
+counting_setting!(Fibre);
 
 impl Observer<Fibre> {
     /// With a half angle of acceptance [deg] and a radius [m].
@@ -38,7 +42,7 @@ impl Observer<Fibre> {
     pub fn new(acceptance: f64, radius: f64) -> Result<Self, ObserverError> {
         MathError::check((1e-150..=1e150).contains(&radius), radius, "radius", "m", "1e-150 … 1e150")?;
         let cone = ConeCosineSampler::new(acceptance)?;
-        Ok(Self::with_sensor(Fibre { acceptance, radius, cone }))
+        Ok(Self::with_sensor(Fibre { acceptance, radius, cone, counting: Counting::default() }))
     }
 }
 
@@ -94,11 +98,14 @@ impl Sensor for Fibre {
     }
 
     fn etendue(&self, _: usize) -> Option<f64> {
-        Some(self.collection_area() * etendue_of_cone(self.acceptance))
+        let counted =
+            if self.counting.without_cosine { self.solid_angle() } else { etendue_of_cone(self.acceptance) };
+        Some(self.collection_area() * counted)
     }
 
     fn description(&self) -> String {
-        format!("{} of {:e} m and {:e} deg", self.kind(), self.radius, self.acceptance)
+        let counting = self.counting.describe();
+        format!("{} of {:e} m and {:e} deg{counting}", self.kind(), self.radius, self.acceptance)
     }
 
     fn kind(&self) -> &'static str {
@@ -110,11 +117,12 @@ impl Storable for Fibre {
     const KIND: &'static str = "Fibre";
 
     fn save(&self, saved: Saved, _: &mut SceneWriter) -> Result<Saved, SaveError> {
-        Ok(saved.number("acceptance", self.acceptance).number("radius", self.radius))
+        Ok(self.counting.save(saved.number("acceptance", self.acceptance).number("radius", self.radius)))
     }
 
     fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
-        Ok(*FibreOptic::new(entry.number("acceptance")?, entry.number("radius")?)?.sensor())
+        let fibre = FibreOptic::new(entry.number("acceptance")?, entry.number("radius")?)?;
+        Ok(Fibre { counting: Counting::load(entry)?, ..*fibre.sensor() })
     }
 }
 

@@ -1,5 +1,3 @@
-use std::f64::consts::PI;
-
 use raysect_core::Ray;
 use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
 use raysect_math::sampling::uniforms;
@@ -7,6 +5,7 @@ use raysect_math::{Point3D, Rng, Vector3D};
 use raysect_primitive::MeshData;
 
 use super::mesh_surface::MeshSurface;
+use super::{Counting, counting_setting};
 use crate::{FrameShape, Observer, ObserverError, Sensor};
 
 /// The triangles of a mesh as pixels: each sees the half space in front of it.
@@ -31,7 +30,10 @@ pub type MeshCamera = Observer<MeshPatches>;
 #[derive(Debug, Clone)]
 pub struct MeshPatches {
     surface: MeshSurface,
+    counting: Counting,
 }
+
+counting_setting!(MeshPatches);
 
 impl Observer<MeshPatches> {
     /// Of the triangles of a mesh, in their order. They look to the side from which their corners run anticlockwise.
@@ -39,7 +41,8 @@ impl Observer<MeshPatches> {
     /// # Errors
     /// [`ObserverError::Math`] for a triangle without area ([`MeshData::without_degenerate`] drops those).
     pub fn new(mesh: &MeshData) -> Result<Self, ObserverError> {
-        Ok(Self::with_sensor(MeshPatches { surface: MeshSurface::new(mesh)? }))
+        let surface = MeshSurface::new(mesh)?;
+        Ok(Self::with_sensor(MeshPatches { surface, counting: Counting::default() }))
     }
 
     /// Lets rays begin this far above the triangles [m]; 0 by default.
@@ -86,11 +89,11 @@ impl Sensor for MeshPatches {
     }
 
     fn etendue(&self, pixel: usize) -> Option<f64> {
-        self.collection_area(pixel).map(|area| PI * area)
+        self.collection_area(pixel).map(|area| self.counting.half_space() * area)
     }
 
     fn description(&self) -> String {
-        format!("{} of {}", self.kind(), self.surface.describe())
+        format!("{} of {}{}", self.kind(), self.surface.describe(), self.counting.describe())
     }
 
     fn kind(&self) -> &'static str {
@@ -102,11 +105,11 @@ impl Storable for MeshPatches {
     const KIND: &'static str = "MeshPatches";
 
     fn save(&self, saved: Saved, _: &mut SceneWriter) -> Result<Saved, SaveError> {
-        Ok(self.surface.save(saved))
+        Ok(self.counting.save(self.surface.save(saved)))
     }
 
     fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
-        Ok(Self { surface: MeshSurface::load(entry)? })
+        Ok(Self { surface: MeshSurface::load(entry)?, counting: Counting::load(entry)? })
     }
 }
 

@@ -8,6 +8,7 @@ use raysect_math::{MathError, Point3D, Rng, Vector3D};
 use raysect_primitive::MeshData;
 
 use super::mesh_surface::MeshSurface;
+use super::{Counting, counting_setting};
 use crate::{FrameShape, Observer, ObserverError, Sensor};
 
 /// The whole surface of a mesh as one pixel: a point of it is as likely as its area, and sees the half space in front of
@@ -30,12 +31,15 @@ pub type MeshPixel = Observer<MeshWhole>;
 #[derive(Debug, Clone)]
 pub struct MeshWhole {
     surface: MeshSurface,
+    counting: Counting,
     /// Sums of the areas, over the last.
     cumulative: Arc<[f64]>,
     area: f64,
     /// Finds the triangle on which a ray begins.
     tree: Arc<KdTree<3>>,
 }
+
+counting_setting!(MeshWhole);
 
 impl Observer<MeshWhole> {
     /// Of all triangles of a mesh. They look to the side from which their corners run anticlockwise.
@@ -53,7 +57,8 @@ impl Observer<MeshWhole> {
     pub fn surface_offset(mut self, offset: f64) -> Result<Self, ObserverError> {
         let mut surface = self.sensor().surface.clone();
         surface.set_offset(offset)?;
-        *self.sensor_mut() = MeshWhole::of(surface)?;
+        let counting = self.sensor().counting;
+        *self.sensor_mut() = MeshWhole { counting, ..MeshWhole::of(surface)? };
         Ok(self)
     }
 }
@@ -73,7 +78,7 @@ impl MeshWhole {
         };
         let items = (0..surface.faces().len()).map(item).collect::<Result<Vec<_>, _>>()?;
         let tree = Arc::new(KdTree::new(items)?);
-        Ok(Self { surface, cumulative: cumulative.into(), area, tree })
+        Ok(Self { surface, counting: Counting::default(), cumulative: cumulative.into(), area, tree })
     }
 
     /// Area of all triangles [m²].
@@ -132,11 +137,11 @@ impl Sensor for MeshWhole {
     }
 
     fn etendue(&self, _: usize) -> Option<f64> {
-        Some(PI * self.area)
+        Some(self.counting.half_space() * self.area)
     }
 
     fn description(&self) -> String {
-        format!("{} of {}", self.kind(), self.surface.describe())
+        format!("{} of {}{}", self.kind(), self.surface.describe(), self.counting.describe())
     }
 
     fn kind(&self) -> &'static str {
@@ -148,11 +153,12 @@ impl Storable for MeshWhole {
     const KIND: &'static str = "MeshWhole";
 
     fn save(&self, saved: Saved, _: &mut SceneWriter) -> Result<Saved, SaveError> {
-        Ok(self.surface.save(saved))
+        Ok(self.counting.save(self.surface.save(saved)))
     }
 
     fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
-        Ok(Self::of(MeshSurface::load(entry)?)?)
+        let counting = Counting::load(entry)?;
+        Ok(Self { counting, ..Self::of(MeshSurface::load(entry)?)? })
     }
 }
 

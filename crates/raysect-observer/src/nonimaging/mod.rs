@@ -1,5 +1,6 @@
 //! Sensors of one pixel, and of the triangles of a mesh.
 
+mod counting;
 mod fibre_optic;
 mod mesh_camera;
 mod mesh_pixel;
@@ -7,6 +8,7 @@ mod mesh_surface;
 mod pixel;
 mod sight_line;
 
+pub(crate) use counting::{Counting, counting_setting};
 pub use fibre_optic::{Fibre, FibreOptic};
 pub use mesh_camera::{MeshCamera, MeshPatches};
 pub use mesh_pixel::{MeshPixel, MeshWhole};

@@ -1,16 +1,15 @@
-use std::f64::consts::PI;
-
 use raysect_core::Ray;
 use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
 use raysect_math::sampling::{hemisphere, uniforms};
 use raysect_math::{Point3D, RectangleSampler3D, Rng, Vector3D};
 
+use super::{Counting, counting_setting};
 use crate::{FrameShape, Observer, ObserverError, Sensor, Targeted};
 
 /// A flat rectangle in the plane z = 0 that sees the half space z > 0.
 ///
 /// Its étendue is π times its area. (Raysect takes 2π for π, so that its radiance is half of this one; the power is the
-/// same.)
+/// same; [`etendue_without_cosine`](Self::etendue_without_cosine) gives its numbers.)
 ///
 /// ```
 /// use raysect_observer::{Pixel, Sensor};
@@ -35,7 +34,10 @@ pub type TargetedPixel = Observer<Targeted<Rectangle>>;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rectangle {
     area: RectangleSampler3D,
+    counting: Counting,
 }
+
+counting_setting!(Rectangle);
 
 impl Observer<Rectangle> {
     /// With its extents along x and y [m].
@@ -44,7 +46,8 @@ impl Observer<Rectangle> {
     /// [`ObserverError::Math`] for an extent outside 1e-150 … 1e150 m.
     #[doc(alias("x_width", "y_width"))]
     pub fn new(width: f64, height: f64) -> Result<Self, ObserverError> {
-        Ok(Self::with_sensor(Rectangle { area: RectangleSampler3D::new(width, height)? }))
+        let area = RectangleSampler3D::new(width, height)?;
+        Ok(Self::with_sensor(Rectangle { area, counting: Counting::default() }))
     }
 }
 
@@ -93,11 +96,12 @@ impl Sensor for Rectangle {
 
     #[inline]
     fn etendue(&self, _: usize) -> Option<f64> {
-        Some(PI * self.collection_area())
+        Some(self.counting.half_space() * self.collection_area())
     }
 
     fn description(&self) -> String {
-        format!("{} of {:e} m × {:e} m", self.kind(), self.width(), self.height())
+        let counting = self.counting.describe();
+        format!("{} of {:e} m × {:e} m{counting}", self.kind(), self.width(), self.height())
     }
 
     fn kind(&self) -> &'static str {
@@ -109,11 +113,12 @@ impl Storable for Rectangle {
     const KIND: &'static str = "Rectangle";
 
     fn save(&self, saved: Saved, _: &mut SceneWriter) -> Result<Saved, SaveError> {
-        Ok(saved.number("width", self.width()).number("height", self.height()))
+        Ok(self.counting.save(saved.number("width", self.width()).number("height", self.height())))
     }
 
     fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
-        Ok(Self { area: RectangleSampler3D::new(entry.number("width")?, entry.number("height")?)? })
+        let area = RectangleSampler3D::new(entry.number("width")?, entry.number("height")?)?;
+        Ok(Self { area, counting: Counting::load(entry)? })
     }
 }
 
@@ -121,6 +126,7 @@ impl Storable for Rectangle {
 mod tests {
     use super::*;
     use crate::testing::check_sensor;
+    use std::f64::consts::PI;
 
     #[test]
     fn the_etendue_is_pi_times_the_area() {

@@ -1,6 +1,6 @@
 //! Observing with more samples where they are needed.
 
-use super::{PILOT_LANE, Session};
+use super::Session;
 use crate::adaptive::{Noise, SamplePlan};
 use crate::{AdaptiveSampling, Convergence, Frame, ObserverError, RenderReport, Sensor};
 
@@ -36,7 +36,7 @@ impl<S: Sensor> Session<'_, S> {
             let due: Vec<u64> = plan.samples().iter().map(|&samples| plan.pilot(samples)).collect();
             let goals = spread(self.mask.len(), &pixels, &due);
             self.meter.foresee(goals.iter().sum());
-            self.pass(&mut pilot, PILOT_LANE, &goals)?;
+            self.pilot(&mut pilot, &goals)?;
             let noise = Noise::of(sampling, &pilot[0], &pixels, &self.rays);
             if self.report.cancelled || !plan.extend(&noise) {
                 self.meter.say(String::new());

@@ -3,6 +3,7 @@
 mod adaptive;
 mod draw;
 mod pass;
+mod pilot;
 mod replay;
 mod until;
 

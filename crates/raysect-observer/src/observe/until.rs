@@ -1,6 +1,6 @@
 //! Observing until an error is reached.
 
-use super::{PILOT_LANE, Session};
+use super::Session;
 use crate::stop::{elements, needed_samples, verdict};
 use crate::{Convergence, Frame, ObserverError, RenderReport, Sensor, Stop};
 
@@ -71,7 +71,7 @@ impl<S: Sensor> Session<'_, S> {
             self.meter.foresee(pilot.wanted.saturating_mul(pixels));
             let next = pilot.wanted.saturating_sub(pilot.samples);
             let goals = self.goals(&pilot.frames[0], next, u64::MAX);
-            self.pass(&mut pilot.frames, PILOT_LANE, &goals)?;
+            self.pilot(&mut pilot.frames, &goals)?;
             pilot.samples += next;
             let needed = needed_samples(stop, &elements(stop, &pilot.frames));
             let late = deadline.is_some_and(|d| self.meter.elapsed().as_secs_f64() >= PILOT_SHARE * d);

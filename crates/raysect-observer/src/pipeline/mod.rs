@@ -69,7 +69,8 @@ pub trait Pipeline: Send + Sync {
         self.frame().unit()
     }
 
-    /// Called after each pass over the pixels: to write a preview, for example.
+    /// Called after each pass over the pixels: to write a preview, for example. As long as nothing that counts has been
+    /// seen, that is also after each pass of a pilot, whose samples the frame then holds for the time of the call.
     ///
     /// # Errors
     /// Whatever went wrong; it ends the observation.

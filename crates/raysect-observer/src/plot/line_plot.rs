@@ -13,6 +13,8 @@ pub struct LinePlot {
     x_label: String,
     y_label: String,
     curves: Vec<Curve>,
+    /// The ends of the x axis, if they are not those of the curves.
+    range: Option<(f64, f64)>,
 }
 
 #[derive(Debug, Clone)]
@@ -32,7 +34,7 @@ impl LinePlot {
     /// Without curves. The label of an axis ends with its unit in brackets: `power [W/nm]`.
     pub fn new(title: impl Into<String>, x_label: impl Into<String>, y_label: impl Into<String>) -> Self {
         let (title, x_label, y_label) = (title.into(), x_label.into(), y_label.into());
-        Self { title, x_label, y_label, curves: Vec::new() }
+        Self { title, x_label, y_label, curves: Vec::new(), range: None }
     }
 
     /// Adds a curve, with a band if there are errors. Of lists of different lengths, the shortest counts.
@@ -41,6 +43,13 @@ impl LinePlot {
             |i: usize| errors.and_then(|e| e.get(i)).copied().filter(|e| e.is_finite()).unwrap_or(0.0);
         let points = x.iter().zip(y).enumerate().map(|(i, (&x, &y))| (x, y, error(i))).collect();
         self.curves.push(Curve { name: name.into(), points });
+        self
+    }
+
+    /// With an x axis from one value to another, instead of from the first point to the last. Curves that reach farther
+    /// widen it; values that are not finite change nothing.
+    pub fn x_range(mut self, low: f64, high: f64) -> Self {
+        self.range = (low.is_finite() && high.is_finite()).then_some((low, high));
         self
     }
 
@@ -94,7 +103,8 @@ impl LinePlot {
                 Some((low, high)) => Some((f64::min(low, v), f64::max(high, v))),
             })
         };
-        let x = span(&mut all().map(|p| p.0)).unwrap_or((0.0, 1.0));
+        let ends = self.range.into_iter().flat_map(|(low, high)| [low, high]);
+        let x = span(&mut all().map(|p| p.0).chain(ends)).unwrap_or((0.0, 1.0));
         let y = span(&mut all().flat_map(|p| [p.1 - p.2, p.1 + p.2])).unwrap_or((0.0, 1.0));
         // A band below zero says nothing of values that cannot be there.
         let lowest = span(&mut all().map(|p| p.1)).map_or(0.0, |(low, _)| low);
@@ -146,6 +156,22 @@ mod tests {
         for text in [">t<", ">x [m]<", ">y [s]<"] {
             assert_eq!(svg.matches(text).count(), 1, "{text}");
         }
+    }
+
+    #[test]
+    fn an_x_axis_of_its_own_reaches_as_far_as_it_says_and_no_curve_leaves_it() {
+        let plot = LinePlot::new("t", "x [m]", "y [s]").curve("a", &[1.0, 3.0], &[0.0, 2.0], None);
+        let ends = |plot: &LinePlot| {
+            let line = &points(&plot.to_svg(), "polyline")[0];
+            [line[0].0, line[1].0]
+        };
+        let near = |found: [f64; 2], expected: [f64; 2]| {
+            found.iter().zip(expected).all(|(f, e)| (f - (84.0 + 692.0 * e)).abs() < 0.011)
+        };
+        assert!(near(ends(&plot), [0.0, 1.0]));
+        assert!(near(ends(&plot.clone().x_range(0.0, 4.0)), [0.25, 0.75]));
+        assert!(near(ends(&plot.clone().x_range(2.0, 5.0)), [0.0, 0.5]));
+        assert!(near(ends(&plot.x_range(f64::NAN, 5.0)), [0.0, 1.0]));
     }
 
     #[test]

@@ -30,7 +30,8 @@ impl Frame {
 }
 
 impl<const POWER: bool> SpectralPipeline<POWER> {
-    /// The spectra of some pixels with bands of ± one standard error.
+    /// The spectra of some pixels with bands of ± one standard error, over all of the bins: from the lower edge of the first
+    /// to the upper edge of the last.
     ///
     /// # Errors
     /// [`ObserverError::EmptyFrame`] before the first observation.
@@ -51,7 +52,8 @@ impl<const POWER: bool> SpectralPipeline<POWER> {
         };
         let label = format!("{quantity} [{}]", self.frame().unit());
         let wavelengths = slicing.wavelengths();
-        let plot = LinePlot::new(title, "wavelength [nm]", label);
+        let edges = (slicing.min_wavelength(), slicing.max_wavelength());
+        let plot = LinePlot::new(title, "wavelength [nm]", label).x_range(edges.0, edges.1);
         Ok(pixels.iter().fold(plot, |plot, &pixel| {
             plot.curve(place(pixel), &wavelengths, &self.spectrum(pixel), Some(&self.errors(pixel)))
         }))
