@@ -113,6 +113,10 @@ impl<'a> Path<'a> {
                 self.media.insert(instance);
             }
         }
+        if self.scene.compiled.contestable {
+            let media = self.media;
+            self.note_contest(&media);
+        }
     }
 
     pub(super) fn medium(&self, instance: u32) -> Option<&'a dyn Medium> {
@@ -223,6 +227,25 @@ impl<'a> Path<'a> {
         let consistent = self.pass_into(&mut media, surface, leaving);
         self.ledger.inconsistencies += u64::from(!consistent);
         self.media = media;
+        if self.scene.compiled.contestable && self.refracts(surface.instance) {
+            self.note_contest(&media);
+        }
+    }
+
+    /// Counts it if two refracting media of a list share the highest priority, so that the order of the nodes decides
+    /// which of them counts. Two volumes of one material are one.
+    fn note_contest(&mut self, media: &MediaList) {
+        let Some((winner, first)) = self.refracting(media) else { return };
+        let of_winner = self.medium(winner);
+        let rival = media.as_slice().iter().find(|&&other| {
+            let medium = self.medium(other);
+            let equal = medium.and_then(|m| m.refraction()).is_some_and(|r| r.priority == first.priority);
+            equal && !of_winner.zip(medium).is_some_and(|(a, b)| std::ptr::addr_eq(a, b))
+        });
+        if let Some(&rival) = rival {
+            self.ledger.contested += 1;
+            self.ledger.name_contestants([rival, winner]);
+        }
     }
 
     /// Changes a list as a way through the surface of the moment does, and through those that coincide with it;
