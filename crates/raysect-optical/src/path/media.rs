@@ -202,7 +202,7 @@ impl<'a> Path<'a> {
         }
         self.coincident = Coincident::default();
         if !compiled.facts[at.surface.instance as usize].has_medium || !self.refracts(at.surface.instance) {
-            let here = self.refracting(&self.media).map_or(1.0, |(_, r)| self.index(&r.index));
+            let here = self.index_within(&self.media);
             self.indices = (here, here);
             return true;
         }
@@ -219,6 +219,25 @@ impl<'a> Path<'a> {
             // The others are met one by one, as if this surface were not there.
             None => false,
         }
+    }
+
+    /// The refractive index of what counts among the media of a list.
+    fn index_within(&self, media: &MediaList) -> f64 {
+        self.refracting(media).map_or(1.0, |(_, r)| self.index(&r.index))
+    }
+
+    /// The indices before and behind the surface of a light in given media, as a path would find them there; none if
+    /// another medium hides it.
+    pub(super) fn indices_at(&self, media: &MediaList, surface: &SurfacePoint) -> Option<(f64, f64)> {
+        if !self.scene.compiled.any_medium {
+            return Some((1.0, 1.0));
+        }
+        if !self.refracts(surface.instance) {
+            let here = self.index_within(media);
+            return Some((here, here));
+        }
+        let interface = self.interface(media, surface, &Coincident::default())?;
+        Some((self.index(interface.near), self.index(interface.far)))
     }
 
     /// Follows the path through a surface and those that coincide with it, into or out of what lies behind.
