@@ -277,9 +277,11 @@ impl Primitive for Parabola {
         }
         let (x, y) = turned(from, rho, arc * (2.0 * u[1] - 1.0));
         let fraction = rho / self.radius;
+        let normal = self.side_normal(x, y);
         Some(SurfaceSample {
             point: Point3D::new(x, y, self.height * (1.0 - fraction * fraction)),
-            normal: self.side_normal(x, y),
+            normal,
+            shading_normal: normal,
             feature: face_of(SIDE),
             density: chance / (2.0 * arc * view.rings),
         })
