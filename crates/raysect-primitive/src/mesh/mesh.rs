@@ -365,9 +365,9 @@ impl Primitive for Mesh {
         SurfaceSampling::Area
     }
 
-    /// Uniform over the area; what faces away from `from` gives nothing.
+    /// Uniform over all of the area that may face `from`; what faces away nevertheless gives nothing.
     fn sample_surface(&self, from: Point3D, u: [f64; 3]) -> Option<SurfaceSample> {
-        let (face, uv) = self.areas().draw(u);
+        let (face, uv) = self.areas().draw(from, !self.0.closed, u)?;
         let feature = Feature { face, uv, ..Feature::default() };
         let point = self.point(&feature);
         let density = self.surface_density(from, point, feature);
@@ -377,9 +377,12 @@ impl Primitive for Mesh {
     }
 
     fn surface_density(&self, from: Point3D, _: Point3D, feature: Feature) -> f64 {
+        if !self.faces(feature.face, from) {
+            return 0.0;
+        }
         // Of so small a mesh the area is no number.
-        let density = 1.0 / self.areas().total();
-        if density.is_finite() && self.faces(feature.face, from) { density } else { 0.0 }
+        let density = 1.0 / self.areas().seen_from(from, !self.0.closed);
+        if density.is_finite() { density } else { 0.0 }
     }
 
     fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
