@@ -87,7 +87,7 @@ fn cubes_of_triangles_under_affine_maps() {
     ] {
         let (mesh, solid) = cube();
         let world = over_a_plate([mesh.material(lamp()).transform(map)]);
-        accept_all(name, box_factor(&solid, &map), &world, [160_000, 640_000, 750_000]);
+        accept_all(name, box_factor(&solid, &map), &world, [300_000, 640_000, 750_000]);
     }
 }
 
@@ -100,15 +100,10 @@ fn triangles_shine_on_the_sides_that_the_material_says() {
         look(&over_a_plate([open(square(3)).material(material)]), Lights, 200_000)
     };
     // The fronts look down, at the plate.
+    assert!(square(3).face_normal(0).unwrap().z < 0.0);
     let factor = box_factor(&sheet(), &AffineMatrix3D::IDENTITY);
-    let (front, back) = (seen(false), seen(true));
-    let (lit, dark) =
-        if front.radiance.mean() > back.radiance.mean() { (front, back) } else { (back, front) };
-    accept("one side", 0.7 * factor, Demand::Mean, &lit);
-    assert_eq!(
-        (dark.radiance.mean(), front.radiance.mean() > 0.0),
-        (0.0, square(3).face_normal(0).unwrap().z < 0.0)
-    );
+    accept("front", 0.7 * factor, Demand::Mean, &seen(false));
+    assert_eq!(seen(true).highest, 0.0);
 }
 
 #[test]
@@ -171,7 +166,7 @@ fn sampling_by_area_is_less_noisy_than_by_bounding_spheres() {
     let cubes = variances("cube", || cube().0.material(lamp()).transform(translate(0.3, -0.2, 1.5)), 100_000);
     let small = || Mesh::new(MeshData::icosphere(3, 0.1).unwrap()).unwrap().material(lamp());
     let ball = variances("small ball", || small().transform(translate(0.0, 0.3, 1.5)), 400_000);
-    for (found, gain) in [(rod, 10.0), (square, 5.0), (cubes, 2.0), (ball, 2.0)] {
+    for (found, gain) in [(rod, 20.0), (square, 20.0), (cubes, 8.0), (ball, 3.0)] {
         assert!(gain * found[0] < found[1] && found[0] < found[2], "{found:?}");
     }
 }
