@@ -453,10 +453,7 @@ impl<A: Attachment> Scene<A> {
         let instance = &self.instances[index as usize];
         let point = instance.to_world.transform_point(sample.point);
         let normal = instance.upright(sample.normal);
-        let shading_normal = match sample.shading_normal == sample.normal {
-            true => normal,
-            false => instance.upright(sample.shading_normal),
-        };
+        let shading_normal = sample.shading_normal.map_or(normal, |n| instance.upright(n));
         let reach = point.max_abs() + instance.stretch * sample.point.max_abs() + instance.shift;
         SurfacePoint {
             instance: index,

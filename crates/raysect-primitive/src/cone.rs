@@ -255,11 +255,10 @@ impl Primitive for Cone {
         let down = u[2].sqrt();
         let (x, y) = turned(from, 1.0, arc * (2.0 * u[1] - 1.0));
         let rho = self.radius * down;
-        let normal = self.normal_towards(x, y);
         Some(SurfaceSample {
             point: Point3D::new(rho * x, rho * y, self.height * (1.0 - down)),
-            normal,
-            shading_normal: normal,
+            normal: self.normal_towards(x, y),
+            shading_normal: None,
             feature: face_of(SIDE),
             density: chance / (arc * self.radius * self.slant),
         })

@@ -248,7 +248,7 @@ impl Primitive for Cuboid {
         Some(SurfaceSample {
             point: place.point,
             normal,
-            shading_normal: normal,
+            shading_normal: None,
             feature,
             density: place.density,
         })

@@ -277,11 +277,10 @@ impl Primitive for Parabola {
         }
         let (x, y) = turned(from, rho, arc * (2.0 * u[1] - 1.0));
         let fraction = rho / self.radius;
-        let normal = self.side_normal(x, y);
         Some(SurfaceSample {
             point: Point3D::new(x, y, self.height * (1.0 - fraction * fraction)),
-            normal,
-            shading_normal: normal,
+            normal: self.side_normal(x, y),
+            shading_normal: None,
             feature: face_of(SIDE),
             density: chance / (2.0 * arc * view.rings),
         })

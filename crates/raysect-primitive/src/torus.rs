@@ -205,7 +205,7 @@ impl Primitive for Torus {
         (density > 0.0).then_some(SurfaceSample {
             point,
             normal,
-            shading_normal: normal,
+            shading_normal: None,
             feature: Feature::default(),
             density,
         })

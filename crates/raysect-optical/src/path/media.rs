@@ -113,10 +113,7 @@ impl<'a> Path<'a> {
                 self.media.insert(instance);
             }
         }
-        if self.scene.compiled.contestable {
-            let media = self.media;
-            self.note_contest(&media);
-        }
+        self.note_contest();
     }
 
     pub(super) fn medium(&self, instance: u32) -> Option<&'a dyn Medium> {
@@ -246,15 +243,20 @@ impl<'a> Path<'a> {
         let consistent = self.pass_into(&mut media, surface, leaving);
         self.ledger.inconsistencies += u64::from(!consistent);
         self.media = media;
-        if self.scene.compiled.contestable && self.refracts(surface.instance) {
-            self.note_contest(&media);
+        if self.media.count > 1 && self.refracts(surface.instance) {
+            self.note_contest();
         }
     }
 
     /// Counts it if two refracting media of a list share the highest priority, so that the order of the nodes decides
     /// which of them counts. Two volumes of one material are one.
-    fn note_contest(&mut self, media: &MediaList) {
-        let Some((winner, first)) = self.refracting(media) else { return };
+    #[inline]
+    fn note_contest(&mut self) {
+        let media = self.media;
+        if !self.scene.compiled.contestable || media.count < 2 {
+            return;
+        }
+        let Some((winner, first)) = self.refracting(&media) else { return };
         let of_winner = self.medium(winner);
         let rival = media.as_slice().iter().find(|&&other| {
             let medium = self.medium(other);

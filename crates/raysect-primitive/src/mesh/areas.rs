@@ -75,7 +75,7 @@ impl Areas {
         let (mut area, mut middle) = (0.0, Vector3D::new(0.0, 0.0, 0.0));
         for triangle in triangles {
             area += data.triangle_area(*triangle as usize);
-            middle = middle + normal(triangle);
+            middle += normal(triangle);
             self.order.push(*triangle);
             self.sums.push(area);
         }

@@ -147,10 +147,9 @@ impl Mesh {
         a + a.vector_to(b) * v + a.vector_to(c) * w
     }
 
-    /// The normal to shade with there, where that of the geometry is `normal`.
-    fn shading_normal(&self, feature: &Feature, normal: Normal3D) -> Normal3D {
-        let smooth = if self.0.smoothing { self.corner_normal(feature) } else { None };
-        smooth.map_or(normal, Normal3D::from)
+    /// The normal to shade with there, if it is another one than that of the triangle.
+    fn shading_normal(&self, feature: &Feature) -> Option<Normal3D> {
+        if self.0.smoothing { self.corner_normal(feature).map(Normal3D::from) } else { None }
     }
 
     fn corner_normal(&self, feature: &Feature) -> Option<Vector3D> {
@@ -352,7 +351,7 @@ impl Primitive for Mesh {
         Surface {
             point: self.point(&crossing.feature),
             normal,
-            shading_normal: self.shading_normal(&crossing.feature, normal),
+            shading_normal: self.shading_normal(&crossing.feature).unwrap_or(normal),
             bound: 16.0 * f64::EPSILON * size,
         }
     }
@@ -372,7 +371,7 @@ impl Primitive for Mesh {
         let point = self.point(&feature);
         let density = self.surface_density(from, point, feature);
         let normal = self.0.data.face_normal(face as usize)?;
-        let shading_normal = self.shading_normal(&feature, normal);
+        let shading_normal = self.shading_normal(&feature);
         (density > 0.0).then_some(SurfaceSample { point, normal, shading_normal, feature, density })
     }
 
