@@ -15,17 +15,17 @@ const EYE: [f64; 3] = [-1e-2, 0.0, 0.4e-2];
 const VIEW: [f64; 3] = [1.0, 0.0, -0.4];
 
 /// A world of a Lambert plate, reflectivity 0.7, and lights.
-fn over_a_plate(lights: impl IntoIterator<Item = Node<Optics>>) -> World {
+pub(crate) fn over_a_plate(lights: impl IntoIterator<Item = Node<Optics>>) -> World {
     world([plate(Lambert::new(0.7))].into_iter().chain(lights))
 }
 
 /// Reads the plate at the origin.
-fn look(world: &World, sampling: LightSampling, count: u64) -> Reading {
+pub(crate) fn look(world: &World, sampling: LightSampling, count: u64) -> Reading {
     Probe::new(count).seed(31).light(sampling).aim(0.5).without_roulette().along(world, EYE, VIEW)
 }
 
 /// Asserts the closed form of a factor, in every way of looking for light.
-fn accept_all(case: &str, factor: f64, world: &World, counts: [u64; 3]) {
+pub(crate) fn accept_all(case: &str, factor: f64, world: &World, counts: [u64; 3]) {
     for (sampling, count) in EVERY.into_iter().zip(counts).filter(|(_, count)| *count > 0) {
         accept(format!("{case} {sampling:?}"), 0.7 * factor, Demand::Mean, &look(world, sampling, count));
     }
@@ -37,7 +37,7 @@ fn scale(x: f64, y: f64, z: f64) -> AffineMatrix3D {
 }
 
 /// A map that is no similarity.
-fn shear() -> AffineMatrix3D {
+pub(crate) fn shear() -> AffineMatrix3D {
     AffineMatrix3D::from_axes(
         Vector3D::new(0.9, 0.1, 0.0),
         Vector3D::new(0.5, 0.8, 0.2),
@@ -153,7 +153,7 @@ fn lights_that_hide_one_another() {
 }
 
 /// Asserts that all ways of looking for light read the same.
-fn all_agree(case: &str, world: &World, counts: [u64; 3]) {
+pub(crate) fn all_agree(case: &str, world: &World, counts: [u64; 3]) {
     let [lights, spheres, off] = [0, 1, 2].map(|i| look(world, EVERY[i], counts[i]));
     agree(format!("{case}: {Lights:?}, {Off:?}"), &lights, &off);
     agree(format!("{case}: {BoundingSpheres:?}, {Off:?}"), &spheres, &off);

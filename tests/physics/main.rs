@@ -8,6 +8,7 @@ mod glass;
 mod irradiance;
 mod lights;
 mod materials;
+mod mesh_lights;
 mod modifiers;
 mod plates;
 mod readings;

@@ -15,48 +15,9 @@ use raysect::primitive::{Cuboid, Sphere};
 use crate::check::{Demand, Probe, accept};
 use crate::scenes::{ball, cuboid, dome, lamp, world};
 
-/// A sheet of emission in a box of 1 m: Gaussian of standard deviation `width`, or a top hat that wide.
-#[derive(Debug, Clone, Copy)]
-struct Sheet {
-    place: f64,
-    width: f64,
-    tilt: Vector3D,
-    gaussian: bool,
-}
-
-impl Sheet {
-    fn draw(rng: &mut Rng) -> Self {
-        let cosine = rng.range(0.3, 1.0);
-        let (sine, angle) = ((1.0 - cosine * cosine).sqrt(), TAU * rng.uniform());
-        Self {
-            place: rng.range(0.2, 0.8),
-            width: 10f64.powf(rng.range(0.3e-3f64.log10(), 20e-3f64.log10())),
-            tilt: Vector3D::new(sine * angle.cos(), sine * angle.sin(), cosine),
-            gaussian: rng.probability(0.5),
-        }
-    }
-
-    fn value(&self, p: Point3D) -> f64 {
-        let t = (p.x * self.tilt.x + p.y * self.tilt.y + (p.z - self.place) * self.tilt.z) / self.width;
-        match self.gaussian {
-            true => (-0.5 * t * t).exp(),
-            false => f64::from(t.abs() < 0.5),
-        }
-    }
-
-    /// The integral along the z axis, whose ends are many widths away.
-    fn expected(&self) -> f64 {
-        let along = self.width / self.tilt.z;
-        if self.gaussian { along * TAU.sqrt() } else { along }
-    }
-}
-
-fn sheet_box(emitter: impl raysect::optical::Material) -> World {
+/// A box of 1 m, whose axis is that of the paths.
+fn metre_box(emitter: impl raysect::optical::Material) -> World {
     world([cuboid([-0.5, -0.5, 0.0], [0.5, 0.5, 1.0]).material(emitter)])
-}
-
-fn emission(sheet: Sheet) -> impl Fn(Point3D, Vector3D, Context<'_>, &mut [f64]) + Send + Sync + 'static {
-    move |p, _, _, bins| bins.iter_mut().for_each(|b| *b += sheet.value(p))
 }
 
 /// Statistics of paths along the axis.
@@ -74,56 +35,12 @@ fn read(world: &World, count: u64, seed: u64) -> Statistics {
 }
 
 #[test]
-fn declared_sheets_are_integrated_to_the_tolerance() {
-    let mut rng = Rng::new(7);
-    for _ in 0..500 {
-        let sheet = Sheet::draw(&mut rng);
-        let emitter = InhomogeneousVolumeEmitter::length_scale(sheet.width, emission(sheet)).unwrap();
-        let off = read(&sheet_box(emitter), 1, 1).mean() / sheet.expected() - 1.0;
-        assert!(off.abs() < 1e-6, "{sheet:?}: off by {off:e}");
-    }
-}
-
-#[test]
-fn the_trapezium_rule_misses_sheets_and_a_wrong_declaration_too() {
-    let mut rng = Rng::new(7);
-    let (mut trapezium, mut wrong) = (0, 0);
-    for _ in 0..100 {
-        let sheet = Sheet::draw(&mut rng);
-        let off = |world: &World| (read(world, 1, 1).mean() / sheet.expected() - 1.0).abs() > 1e-3;
-        let steps = InhomogeneousVolumeEmitter::trapezium(0.01, 5, emission(sheet)).unwrap();
-        trapezium += usize::from(off(&sheet_box(steps)));
-        let coarse = InhomogeneousVolumeEmitter::length_scale(1.0, emission(sheet)).unwrap();
-        wrong += usize::from(off(&sheet_box(coarse)));
-    }
-    assert!(trapezium > 30 && wrong > 10, "{trapezium} {wrong}");
-}
-
-#[test]
-fn jittered_sheets_have_no_bias_and_error_bars_that_cover() {
-    let (mut rng, mut covered, count) = (Rng::new(8), 0, 1000);
-    let mut scores = Statistics::new();
-    for seed in 0..count {
-        let sheet = Sheet::draw(&mut rng);
-        let emitter = InhomogeneousVolumeEmitter::jittered(0.01, emission(sheet)).unwrap();
-        let found = read(&sheet_box(emitter), 400, seed);
-        let z = (found.mean() - sheet.expected()) / found.error();
-        covered += usize::from(z.abs() < 1.96);
-        scores.add(z);
-    }
-    let share = covered as f64 / count as f64;
-    // 95 ± 1 % of infinitely many; a thousand scatter by 0.7 %.
-    assert!((share - 0.95).abs() < 0.01 + 2.0 * 0.007, "{share}");
-    assert!(scores.mean().abs() < 0.3, "{scores}");
-}
-
-#[test]
 fn declared_attenuation_and_emission_are_solved_together() {
     // Along the axis of the box the density is 1 + cos(2 π z): ∫ = 1 m, and j/α is constant: L = (j/α)(1 − e^−τ).
     let uniform = UniformVolume::emitter(6.0).absorption(3.0);
     let density = |p: Point3D| 1.0 + (TAU * p.z).cos();
     let profile = ProfileVolume::new(uniform, density, 2.0, 0.2).unwrap();
-    let found = read(&sheet_box(profile), 1, 1).mean();
+    let found = read(&metre_box(profile), 1, 1).mean();
     assert!((found / (2.0 * (1.0 - (-3.0f64).exp())) - 1.0).abs() < 1e-6, "{found}");
 }
 
@@ -273,11 +190,11 @@ fn volumes_of_sums_and_blends_are_solved_together() {
     let sum = Add::new(Arc::new(slab()), Arc::new(absorber.clone()));
     // ∫ exp(−2 s) over 0.4 … 0.6 m.
     let expected = ((-0.8f64).exp() - (-1.2f64).exp()) / 2.0;
-    let found = read(&sheet_box(sum), 1, 1).mean();
+    let found = read(&metre_box(sum), 1, 1).mean();
     assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
     let blend = Blend::new(Arc::new(absorber), Arc::new(warm), 0.25).unwrap();
     let expected = 0.75 / 1.5 * (1.0 - (-1.5f64).exp());
-    let found = read(&sheet_box(blend), 1, 1).mean();
+    let found = read(&metre_box(blend), 1, 1).mean();
     assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
 }
 
@@ -286,7 +203,7 @@ fn a_volume_moves_within_its_shape() {
     let sum = |moved: f64| {
         let absorber = Arc::new(UniformVolume::new().absorption(2.0));
         let slab = VolumeTransform::new(Arc::new(slab()), translate(0.0, 0.0, moved)).unwrap();
-        read(&sheet_box(Add::new(Arc::new(slab), absorber)), 1, 1).mean()
+        read(&metre_box(Add::new(Arc::new(slab), absorber)), 1, 1).mean()
     };
     let expected = |from: f64| ((-2.0 * from).exp() - (-2.0 * (from + 0.2)).exp()) / 2.0;
     assert!((sum(0.0) / expected(0.4) - 1.0).abs() < 1e-6);

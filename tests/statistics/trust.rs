@@ -109,3 +109,29 @@ fn one_sample_that_makes_the_error_is_found() {
     let late = report(100_000);
     assert!(late.warnings().is_empty() && late.readings[0].variance_of_variance < 0.02, "{late}");
 }
+
+/// Two balls of glass that overlap, the second one with a priority, in front of a camera inside a lamp.
+fn overlapping(priority: i32) -> RenderReport {
+    let mut world = World::new();
+    let glass = |priority| Dielectric::new(1.5, 1.0).unwrap().named("crown").priority(priority);
+    let ball =
+        |z, priority| Sphere::new(1.0).unwrap().material(glass(priority)).transform(translate(0.0, 0.0, z));
+    world.add(ball(3.0, 0).name("left")).unwrap();
+    world.add(ball(4.0, priority)).unwrap();
+    world.add(Sphere::new(50.0).unwrap().material(UniformSurfaceEmitter::new(1.0, 1.0))).unwrap();
+    let camera = PinholeCamera::new((8, 8), 30.0).unwrap().spectral_bins(1).pixel_samples(100).quiet(true);
+    let plan = camera.plan(&world).unwrap().to_string();
+    assert_eq!(plan.contains("equal priority"), priority == 0, "{plan}");
+    camera.observe(&world, &mut RadiancePipeline::new()).unwrap()
+}
+
+#[test]
+fn overlapping_glass_of_equal_priority_is_named() {
+    let equal = overlapping(0);
+    let warnings = equal.warnings();
+    let about = warnings.iter().find(|warning| warning.contains("equal priority")).expect("a warning");
+    assert!(about.contains("left (crown) and Sphere (crown)"), "{about}");
+    assert!(equal.ledger.contested > 1000 && about.starts_with(&equal.ledger.contested.to_string()));
+    let settled = overlapping(1);
+    assert!(!settled.warnings().iter().any(|warning| warning.contains("priority")), "{settled}");
+}

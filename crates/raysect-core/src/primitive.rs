@@ -89,6 +89,8 @@ pub struct SurfaceSample {
     pub point: Point3D,
     /// The outward unit normal there.
     pub normal: Normal3D,
+    /// The outward unit normal to shade with, where it is another one.
+    pub shading_normal: Option<Normal3D>,
     /// Which piece of the surface.
     pub feature: Feature,
     /// Density of the choice [1/m²].

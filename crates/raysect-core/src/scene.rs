@@ -79,6 +79,16 @@ impl<A> Instance<A> {
         }
     }
 
+    /// A unit normal of the shape in the world.
+    #[inline]
+    fn upright(&self, normal: Normal3D) -> Normal3D {
+        match self.similarity {
+            // A similarity turns normals like vectors and stretches them by a known factor.
+            Some(_) => Normal3D::from(self.to_world.transform_vector(normal.as_vector()) * self.shrink),
+            None => self.to_local.transform_normal_with_inverse(normal).normalise_unchecked(),
+        }
+    }
+
     /// The next crossing of a ray that starts on this shape.
     ///
     /// What goes into a solid comes out of it. Where the chord is so thin that rounding hides it, along the surface or
@@ -393,14 +403,12 @@ impl<A: Attachment> Scene<A> {
         }
         let local = instance.primitive.surface(&instance.local(ray), &hit.crossing);
         let point = instance.to_world.transform_point(local.point);
-        let upright = |n: Normal3D| match instance.similarity {
-            // A similarity turns normals like vectors and stretches them by a known factor.
-            Some(_) => Normal3D::from(instance.to_world.transform_vector(n.as_vector()) * instance.shrink),
-            None => instance.to_local.transform_normal_with_inverse(n).normalise_unchecked(),
+        let normal = instance.upright(local.normal);
+        let shading_normal = if local.shading_normal == local.normal {
+            normal
+        } else {
+            instance.upright(local.shading_normal)
         };
-        let normal = upright(local.normal);
-        let shading_normal =
-            if local.shading_normal == local.normal { normal } else { upright(local.shading_normal) };
         let rounding = 16.0 * f64::EPSILON;
         let reach = point.max_abs() + instance.stretch * local.point.max_abs() + instance.shift;
         SurfacePoint {
@@ -444,19 +452,15 @@ impl<A: Attachment> Scene<A> {
     ) -> SurfacePoint {
         let instance = &self.instances[index as usize];
         let point = instance.to_world.transform_point(sample.point);
-        let normal = match instance.similarity {
-            Some(_) => Normal3D::from(
-                instance.to_world.transform_vector(sample.normal.as_vector()) * instance.shrink,
-            ),
-            None => instance.to_local.transform_normal_with_inverse(sample.normal).normalise_unchecked(),
-        };
+        let normal = instance.upright(sample.normal);
+        let shading_normal = sample.shading_normal.map_or(normal, |n| instance.upright(n));
         let reach = point.max_abs() + instance.stretch * sample.point.max_abs() + instance.shift;
         SurfacePoint {
             instance: index,
             point,
             local_point: sample.point,
             normal,
-            shading_normal: normal,
+            shading_normal,
             bound: 16.0 * f64::EPSILON * reach,
             distance,
             exiting: normal.dot(direction) > 0.0,

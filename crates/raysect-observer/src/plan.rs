@@ -113,10 +113,15 @@ fn volumes(known: &Illumination) -> String {
         true => "solved along every piece of a path as their structure is declared",
         false => "solved exactly along every piece of a path",
     };
-    match known.any_scattering {
-        true => format!("media, {line}; paths are scattered in them"),
-        false => format!("media, {line}; none scatters"),
-    }
+    let scattering = if known.any_scattering { "paths are scattered in them" } else { "none scatters" };
+    // Whether they overlap is found out by the paths.
+    let equals = match known.contestable {
+        true => {
+            "; some refract with equal priority: the later node counts where they overlap, and the report warns"
+        }
+        false => "",
+    };
+    format!("media, {line}; {scattering}{equals}")
 }
 
 fn lights<S: Sensor>(known: &Illumination, observer: &Observer<S>) -> String {

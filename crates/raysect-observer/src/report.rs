@@ -37,6 +37,8 @@ pub struct RenderReport {
     pub invalid: u64,
     /// True if it was cancelled.
     pub cancelled: bool,
+    /// The two refracting volumes of equal priority in which a path was at once, by their names, if there were such.
+    pub contestants: Option<[String; 2]>,
     /// What has been reached, if an error was asked for.
     pub convergence: Option<Convergence>,
     /// What each pipeline has gathered by now, in their order.
@@ -91,6 +93,13 @@ impl RenderReport {
             all.push(format!(
                 "{} times the surfaces passed did not agree with the media around",
                 l.inconsistencies
+            ));
+        }
+        if let Some([first, second]) = &self.contestants {
+            all.push(format!(
+                "{} times a path was in two refracting volumes of equal priority at once, as {first} and {second}: \
+                 the later node counts; say by their priorities which is meant",
+                l.contested
             ));
         }
         if l.unresolved > 0 {

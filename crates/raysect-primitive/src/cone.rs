@@ -258,6 +258,7 @@ impl Primitive for Cone {
         Some(SurfaceSample {
             point: Point3D::new(rho * x, rho * y, self.height * (1.0 - down)),
             normal: self.normal_towards(x, y),
+            shading_normal: None,
             feature: face_of(SIDE),
             density: chance / (arc * self.radius * self.slant),
         })

@@ -245,7 +245,13 @@ impl Primitive for Cuboid {
         let place = Faces::of(self, from).sample(self, from, u)?;
         let feature = Feature { face: face_number(place.axis, place.upper), ..Feature::default() };
         let normal = Self::normal(place.axis, place.upper);
-        Some(SurfaceSample { point: place.point, normal, feature, density: place.density })
+        Some(SurfaceSample {
+            point: place.point,
+            normal,
+            shading_normal: None,
+            feature,
+            density: place.density,
+        })
     }
 
     fn surface_density(&self, from: Point3D, point: Point3D, feature: Feature) -> f64 {

@@ -216,6 +216,7 @@ impl Primitive for Cylinder {
         Some(SurfaceSample {
             point: Point3D::new(nx * self.radius, ny * self.radius, u[2] * self.height),
             normal: Normal3D::new(nx, ny, 0.0),
+            shading_normal: None,
             feature: face_of(SIDE),
             density: chance / (2.0 * arc * self.radius * self.height),
         })

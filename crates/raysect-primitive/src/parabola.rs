@@ -280,6 +280,7 @@ impl Primitive for Parabola {
         Some(SurfaceSample {
             point: Point3D::new(x, y, self.height * (1.0 - fraction * fraction)),
             normal: self.side_normal(x, y),
+            shading_normal: None,
             feature: face_of(SIDE),
             density: chance / (2.0 * arc * view.rings),
         })

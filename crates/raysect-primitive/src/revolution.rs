@@ -281,6 +281,7 @@ pub(crate) fn sample_disk(radius: f64, z: f64, face: u32, chance: f64, u: [f64; 
     SurfaceSample {
         point: Point3D::new(radius * p.x, radius * p.y, z),
         normal: flat_normal(face),
+        shading_normal: None,
         feature: face_of(face),
         density: chance / disk_area(radius),
     }

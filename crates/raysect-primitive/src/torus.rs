@@ -202,7 +202,13 @@ impl Primitive for Torus {
         let point = Point3D::new(circle * cosine, circle * sine, self.minor_radius * up);
         let normal = Normal3D::new(out * cosine, out * sine, up);
         let density = self.surface_density(from, point, Feature::default());
-        (density > 0.0).then_some(SurfaceSample { point, normal, feature: Feature::default(), density })
+        (density > 0.0).then_some(SurfaceSample {
+            point,
+            normal,
+            shading_normal: None,
+            feature: Feature::default(),
+            density,
+        })
     }
 
     fn surface_density(&self, from: Point3D, point: Point3D, _: Feature) -> f64 {

@@ -30,6 +30,7 @@ const PASS_SECONDS: f64 = 4.0;
 pub(crate) struct Session<'a, S: Sensor> {
     observer: &'a Observer<S>,
     scene: &'a Scene,
+    world: &'a World,
     slices: Vec<Slice>,
     to_world: AffineMatrix3D,
     pipelines: Vec<&'a mut dyn Pipeline>,
@@ -90,12 +91,14 @@ impl<'a, S: Sensor> Session<'a, S> {
             ledger: Ledger::default(),
             invalid: 0,
             cancelled: false,
+            contestants: None,
             convergence: None,
             readings: Vec::new(),
         };
         Ok(Self {
             observer,
             scene,
+            world,
             slices,
             to_world,
             frames: Vec::new(),
@@ -148,8 +151,18 @@ impl<'a, S: Sensor> Session<'a, S> {
     fn finish(mut self) -> RenderReport {
         let (added, elapsed) = (self.report.samples, self.meter.elapsed());
         self.report.elapsed = elapsed;
+        self.report.contestants =
+            self.report.ledger.contestants.map(|pair| pair.map(|index| self.name_of(index)));
         self.report.readings = self.pipelines.iter().map(|p| Reading::of(&**p, added, elapsed)).collect();
         self.report
+    }
+
+    /// What an instance is called in messages: its name or its shape, and its material.
+    fn name_of(&self, instance: u32) -> String {
+        let placed = &self.scene.instances[instance as usize];
+        let name = self.world.name(placed.node).unwrap_or_default();
+        let shape = if name.is_empty() { placed.primitive.kind() } else { name };
+        format!("{shape} ({})", placed.attached.material().facts().name)
     }
 
     /// Takes more samples of every pixel that has fewer than `limit`, in passes of a few seconds, until the deadline

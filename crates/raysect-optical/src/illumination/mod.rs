@@ -3,6 +3,8 @@
 mod light;
 mod targets;
 
+use std::collections::BTreeMap;
+
 use raysect_core::{Instance, SurfaceSampling};
 
 pub use light::{Light, LightSample, Vertex};
@@ -10,7 +12,7 @@ pub(crate) use light::{light_density, sample_lights};
 pub use targets::Targets;
 
 use crate::material::scatters;
-use crate::{Facts, Optics, Structure};
+use crate::{Facts, Medium, Optics, Structure};
 
 /// What the integrator asks of an instance at every hit.
 #[derive(Debug, Clone, Copy)]
@@ -50,6 +52,9 @@ pub struct Illumination {
     pub any_scattering: bool,
     /// How many volumes refract.
     pub refracting: usize,
+    /// True if two volumes of different materials refract with equal priority: where such overlap the order of their
+    /// nodes decides.
+    pub contestable: bool,
     /// True if something refracts by wavelength.
     pub any_dispersion: bool,
     /// What each instance calls its material.
@@ -92,6 +97,7 @@ impl Illumination {
             any_scattering: facts.iter().any(|f| f.scatters),
             any_medium: facts.iter().any(|f| f.has_medium),
             refracting: instances.iter().filter(|i| refracts(i)).count(),
+            contestable: any_equal(instances.iter().filter_map(|i| i.attached.material().medium())),
             any_dispersion: known.iter().any(|f| f.disperses),
             names: known.into_iter().map(|f| f.name).collect(),
             facts,
@@ -104,4 +110,12 @@ impl Illumination {
 
 fn refracts(instance: &Instance<Optics>) -> bool {
     instance.attached.material().medium().is_some_and(|m| m.refraction().is_some())
+}
+
+/// True if two different media refract with the same priority.
+fn any_equal<'a>(media: impl Iterator<Item = &'a dyn Medium>) -> bool {
+    let mut first: BTreeMap<i32, &dyn Medium> = BTreeMap::new();
+    media
+        .filter_map(|medium| Some((medium.refraction()?.priority, medium)))
+        .any(|(priority, medium)| !std::ptr::addr_eq(*first.entry(priority).or_insert(medium), medium))
 }

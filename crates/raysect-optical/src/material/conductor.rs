@@ -24,10 +24,9 @@ impl Metal {
     /// Multiplies each bin by its reflectance, seen from a medium of index `at.index_in`.
     #[inline]
     pub(super) fn reflect(&self, cosine: f64, at: Context<'_>, bins: &mut [f64]) {
-        let inverse = 1.0 / at.index_in;
         let tables = at.slice.table(&self.index).iter().zip(at.slice.table(&self.extinction));
         for (bin, (n, k)) in bins.iter_mut().zip(tables) {
-            *bin *= self.law.reflectance(cosine, n * inverse, k * inverse);
+            *bin *= self.law.reflectance(cosine, at.index_in, *n, *k);
         }
     }
 

@@ -109,19 +109,37 @@ fn attenuation(transmission: f64) -> f64 {
     if transmission == 1.0 { 0.0 } else { -transmission.ln() }
 }
 
-/// Reflectance for unpolarised light and the cosine of refraction, for the cosine of incidence and the ratio of the
-/// index on the near side to that on the far side; none for total reflection
+/// Reflectance for unpolarised light and the cosine of refraction, for the cosine of incidence and the indices on the
+/// near side and on the far side; none for total reflection
 /// (M. Born and E. Wolf, *Principles of Optics*, 7th ed., § 1.5.2).
-pub(crate) fn fresnel(cosine: f64, ratio: f64) -> Option<(f64, f64)> {
+///
+/// Where indices or cosines are almost equal the textbook's differences of products lose their digits. Here the
+/// difference is taken of the indices themselves: with r = n/n', (r cos θ)² − cos² θ' = r² − 1.
+#[inline]
+pub(crate) fn fresnel(cosine: f64, near: f64, far: f64) -> Option<(f64, f64)> {
+    let ratio = near / far;
+    let excess = (near - far) * (near + far) / (far * far);
+    if excess == 0.0 {
+        return Some((0.0, cosine));
+    }
     let sine_squared = (1.0 - cosine) * (1.0 + cosine);
-    let sine = ratio * sine_squared.sqrt();
-    let squared = (1.0 - sine) * (1.0 + sine);
+    let projected = ratio * cosine;
+    // 1 − r² sin² θ: by the sine near the normal, by the cosine near grazing, where each is exact.
+    let squared = if cosine > 0.5 {
+        let sine = ratio * sine_squared.sqrt();
+        (1.0 - sine) * (1.0 + sine)
+    } else {
+        projected * projected - excess
+    };
     if squared <= 0.0 {
         return None;
     }
     let refracted = squared.sqrt();
-    let amplitude = |a: f64, b: f64| (a - b) / (a + b);
-    let (s, p) = (amplitude(ratio * cosine, refracted), amplitude(ratio * refracted, cosine));
+    let sum = projected + refracted;
+    let s = excess / (sum * sum);
+    // The amplitudes are to each other as cos (θ + θ') to cos (θ − θ').
+    let (along, across) = (cosine * refracted, ratio * sine_squared);
+    let p = s * ((along - across) / (along + across));
     Some((0.5 * (s * s + p * p), refracted))
 }
 
@@ -130,7 +148,7 @@ impl Material for Dielectric {
         let at = path.context();
         let ratio = at.index_in / at.index_out;
         let cosine = hit.cosine();
-        let Some((reflectance, refracted)) = fresnel(cosine, ratio) else {
+        let Some((reflectance, refracted)) = fresnel(cosine, at.index_in, at.index_out) else {
             return if self.transmission_only {
                 Scatter::Absorbed
             } else {
@@ -207,7 +225,7 @@ mod tests {
 
     #[test]
     fn reflectances_of_the_textbook() {
-        let at = |degrees: f64, ratio: f64| fresnel(degrees.to_radians().cos(), ratio).map(|f| f.0);
+        let at = |degrees: f64, ratio: f64| fresnel(degrees.to_radians().cos(), ratio, 1.0).map(|f| f.0);
         let close = |a: Option<f64>, b: f64| (a.unwrap() - b).abs() < 1e-12;
         assert!(close(at(0.0, 1.0 / 1.5), 0.04) && close(at(0.0, 1.5), 0.04));
         assert!(close(at(56.309_932_474_020_215, 1.0 / 1.5), 0.073_964_497_041_420_1));
@@ -215,8 +233,8 @@ mod tests {
         assert!((at(80.0, 1.0 / 1.5).unwrap() - 0.387_704_354_691_472_6).abs() < 1e-14);
         assert_eq!(at(45.0, 1.0), Some(0.0));
         let critical = (1.0f64 / 1.5).asin();
-        assert!(fresnel((critical * (1.0 + 1e-12)).cos(), 1.5).is_none());
-        assert!(fresnel((critical * (1.0 - 1e-12)).cos(), 1.5).is_some());
+        assert!(fresnel((critical * (1.0 + 1e-12)).cos(), 1.5, 1.0).is_none());
+        assert!(fresnel((critical * (1.0 - 1e-12)).cos(), 1.5, 1.0).is_some());
     }
 
     #[test]

@@ -25,10 +25,18 @@ pub struct Ledger {
     /// Places at which a line integral was given up before it reached its tolerance, or a medium attenuated more than
     /// the bound that it had declared.
     pub unresolved: u64,
+    /// Times at which a path came into two refracting volumes of equal priority at once: which of them counts follows
+    /// from the order of their nodes.
+    pub contested: u64,
+    /// The two of them, by the numbers of their instances: of all pairs that were met the first in order.
+    pub contestants: Option<[u32; 2]>,
 }
 
 /// How many numbers a ledger is in a block of results.
-pub const LEDGER_NUMBERS: usize = 11;
+pub const LEDGER_NUMBERS: usize = 14;
+
+/// What stands for an instance in a block of results where there is none.
+const NOBODY: f64 = -1.0;
 
 impl Ledger {
     /// The ledger as plain numbers, exact below 2⁵³.
@@ -45,6 +53,9 @@ impl Ledger {
             self.lost as f64,
             self.inconsistencies as f64,
             self.unresolved as f64,
+            self.contested as f64,
+            self.contestants.map_or(NOBODY, |pair| f64::from(pair[0])),
+            self.contestants.map_or(NOBODY, |pair| f64::from(pair[1])),
         ]
     }
 
@@ -61,5 +72,15 @@ impl Ledger {
         self.lost += n[8] as u64;
         self.inconsistencies += n[9] as u64;
         self.unresolved += n[10] as u64;
+        self.contested += n[11] as u64;
+        if n[12] != NOBODY {
+            self.name_contestants([n[12] as u32, n[13] as u32]);
+        }
+    }
+
+    /// Notes a pair of contestants, if it comes before the one that is known: the answer does not depend on the order
+    /// in which paths are followed.
+    pub(super) fn name_contestants(&mut self, pair: [u32; 2]) {
+        self.contestants = Some(self.contestants.map_or(pair, |known| known.min(pair)));
     }
 }

@@ -113,6 +113,7 @@ impl<'a> Path<'a> {
                 self.media.insert(instance);
             }
         }
+        self.note_contest();
     }
 
     pub(super) fn medium(&self, instance: u32) -> Option<&'a dyn Medium> {
@@ -198,7 +199,7 @@ impl<'a> Path<'a> {
         }
         self.coincident = Coincident::default();
         if !compiled.facts[at.surface.instance as usize].has_medium || !self.refracts(at.surface.instance) {
-            let here = self.refracting(&self.media).map_or(1.0, |(_, r)| self.index(&r.index));
+            let here = self.index_within(&self.media);
             self.indices = (here, here);
             return true;
         }
@@ -217,12 +218,55 @@ impl<'a> Path<'a> {
         }
     }
 
+    /// The refractive index of what counts among the media of a list.
+    fn index_within(&self, media: &MediaList) -> f64 {
+        self.refracting(media).map_or(1.0, |(_, r)| self.index(&r.index))
+    }
+
+    /// The indices before and behind the surface of a light in given media, as a path would find them there; none if
+    /// another medium hides it.
+    pub(super) fn indices_at(&self, media: &MediaList, surface: &SurfacePoint) -> Option<(f64, f64)> {
+        if !self.scene.compiled.any_medium {
+            return Some((1.0, 1.0));
+        }
+        if !self.refracts(surface.instance) {
+            let here = self.index_within(media);
+            return Some((here, here));
+        }
+        let interface = self.interface(media, surface, &Coincident::default())?;
+        Some((self.index(interface.near), self.index(interface.far)))
+    }
+
     /// Follows the path through a surface and those that coincide with it, into or out of what lies behind.
     pub(super) fn change_medium(&mut self, surface: &SurfacePoint, leaving: &mut Leaving) {
         let mut media = self.media;
         let consistent = self.pass_into(&mut media, surface, leaving);
         self.ledger.inconsistencies += u64::from(!consistent);
         self.media = media;
+        if self.media.count > 1 && self.refracts(surface.instance) {
+            self.note_contest();
+        }
+    }
+
+    /// Counts it if two refracting media of a list share the highest priority, so that the order of the nodes decides
+    /// which of them counts. Two volumes of one material are one.
+    #[inline]
+    fn note_contest(&mut self) {
+        let media = self.media;
+        if !self.scene.compiled.contestable || media.count < 2 {
+            return;
+        }
+        let Some((winner, first)) = self.refracting(&media) else { return };
+        let of_winner = self.medium(winner);
+        let rival = media.as_slice().iter().find(|&&other| {
+            let medium = self.medium(other);
+            let equal = medium.and_then(|m| m.refraction()).is_some_and(|r| r.priority == first.priority);
+            equal && !of_winner.zip(medium).is_some_and(|(a, b)| std::ptr::addr_eq(a, b))
+        });
+        if let Some(&rival) = rival {
+            self.ledger.contested += 1;
+            self.ledger.name_contestants([rival, winner]);
+        }
     }
 
     /// Changes a list as a way through the surface of the moment does, and through those that coincide with it;

@@ -160,9 +160,11 @@ impl Path<'_> {
             }
         };
         let ray = ray.with_max_distance(surface.distance);
+        let mut around = from.media;
         if self.scene.compiled.any_transparent || !from.media.is_empty() {
-            if !self.walk_to_light(from, &ray, instance) {
-                return;
+            match self.walk_to_light(from, &ray, instance) {
+                Some(media) => around = media,
+                None => return,
             }
         } else {
             // A point drawn on a light that is not convex may lie behind another part of it.
@@ -177,8 +179,9 @@ impl Path<'_> {
         }
         let at = SurfaceHit { surface: *surface, direction: light.direction };
         let material = scene.instances[instance as usize].attached.material();
-        let context =
-            crate::Context { index_in: self.indices.0, index_out: self.indices.0, ..self.context() };
+        // The light stands in other media than the place that it is looked for from; one that a medium hides is not met.
+        let Some((index_in, index_out)) = self.indices_at(&around, surface) else { return };
+        let context = crate::Context { index_in, index_out, ..self.context() };
         if material.emit(&at, context, &mut self.emitted) {
             let weight = heuristic(light.density, density) / light.density;
             let found = self.reflected.iter().zip(&self.emitted);
@@ -188,24 +191,25 @@ impl Path<'_> {
     }
 
     /// Follows a shadow ray through transparent surfaces and media to a light; reduces `reflected` by what the media
-    /// let through. `false` if something opaque stands in the way.
-    fn walk_to_light(&mut self, from: &Origin, ray: &Ray, light: u32) -> bool {
+    /// let through. The media in front of the light, or none if something opaque stands in the way.
+    fn walk_to_light(&mut self, from: &Origin, ray: &Ray, light: u32) -> Option<MediaList> {
         let scene = self.scene;
         let (mut ray, mut leaving, mut media) = (*ray, from.leaving, from.media);
         loop {
             let next = scene.hit(&ray, leaving.as_ref(), &mut self.scratch);
             let distance = next.map_or(ray.max_distance, |h| h.crossing.distance);
             self.attenuate_shadow(&media, &ray, distance);
-            let Some(next) = next else { return true };
+            let Some(next) = next else { return Some(media) };
             if next.instance == light {
                 // Unless this is another part of the light, in front of the point that was drawn.
-                return scene.is_convex(light) || distance >= ray.max_distance * (1.0 - 1e-9);
+                let met = scene.is_convex(light) || distance >= ray.max_distance * (1.0 - 1e-9);
+                return met.then_some(media);
             }
             let surface: SurfacePoint = scene.finish(&ray, &next);
             if !scene.compiled.facts[next.instance as usize].transparent
                 && self.is_interface(&media, &surface)
             {
-                return false;
+                return None;
             }
             self.change_list(&mut media, &surface);
             leaving = Some(Leaving::new(&surface, ray.direction, ray.direction, leaving.as_ref()));

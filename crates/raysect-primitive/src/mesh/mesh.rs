@@ -1,11 +1,15 @@
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use fearless_simd::{Level, Simd, dispatch};
 use raysect_core::accel::wide::{LeafTest, NO_ITEM, TreeRay, WideTree};
 use raysect_core::save::{SaveError, Saved, SceneWriter};
-use raysect_core::{BoundingBox3D, Crossing, Departure, Interval, Primitive, Ray, Scratch, Surface};
+use raysect_core::{
+    BoundingBox3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch, Surface, SurfaceSample,
+    SurfaceSampling,
+};
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D, Vector3D};
 
+use super::areas::Areas;
 use super::block::{Block, RayLanes, Triangles};
 use super::search::{After, All, Nearest, Search, crossing};
 use super::triangle::ShearedRay;
@@ -37,6 +41,8 @@ struct Shared {
     smoothing: bool,
     closed: bool,
     level: Level,
+    /// Made when a point is drawn first: only lamps need it.
+    areas: OnceLock<Areas>,
 }
 
 /// The triangles in the order of the leaves.
@@ -85,7 +91,8 @@ impl Mesh {
         let boxes = data.triangle_boxes();
         let tree = WideTree::new(&boxes);
         let blocks = Blocks::new(&data, &tree);
-        Self(Arc::new(Shared { data, tree, blocks, smoothing, closed, level: Level::new() }))
+        let (level, areas) = (Level::new(), OnceLock::new());
+        Self(Arc::new(Shared { data, tree, blocks, smoothing, closed, level, areas }))
     }
 
     /// Vertices, triangles and normals.
@@ -105,7 +112,19 @@ impl Mesh {
 
     /// Bytes that its data, its tree and its triangles take.
     pub fn bytes(&self) -> usize {
-        self.0.tree.bytes() + self.0.blocks.bytes() + self.0.data.bytes()
+        let areas = self.0.areas.get().map_or(0, Areas::bytes);
+        self.0.tree.bytes() + self.0.blocks.bytes() + self.0.data.bytes() + areas
+    }
+
+    fn areas(&self) -> &Areas {
+        self.0.areas.get_or_init(|| Areas::new(&self.0.data))
+    }
+
+    /// True if a triangle can be seen from a point: a closed mesh from outside alone, a sheet from both sides.
+    fn faces(&self, triangle: u32, from: Point3D) -> bool {
+        let [corner, ..] = self.0.data.corners(triangle as usize);
+        let height = |normal: Normal3D| normal.dot(corner.vector_to(from));
+        self.0.data.face_normal(triangle as usize).is_some_and(|n| !self.0.closed || height(n) > 0.0)
     }
 
     /// Walks through the tree with a test made for the kind of triangles that are stored.
@@ -121,9 +140,21 @@ impl Mesh {
         })
     }
 
-    fn corner_normal(&self, crossing: &Crossing) -> Option<Vector3D> {
-        let normals = self.0.data.corner_normals(crossing.feature.face as usize)?;
-        let [v, w] = crossing.feature.uv;
+    /// The point of a triangle at barycentric coordinates.
+    fn point(&self, feature: &Feature) -> Point3D {
+        let [a, b, c] = self.0.data.corners(feature.face as usize);
+        let [v, w] = feature.uv;
+        a + a.vector_to(b) * v + a.vector_to(c) * w
+    }
+
+    /// The normal to shade with there, if it is another one than that of the triangle.
+    fn shading_normal(&self, feature: &Feature) -> Option<Normal3D> {
+        if self.0.smoothing { self.corner_normal(feature).map(Normal3D::from) } else { None }
+    }
+
+    fn corner_normal(&self, feature: &Feature) -> Option<Vector3D> {
+        let normals = self.0.data.corner_normals(feature.face as usize)?;
+        let [v, w] = feature.uv;
         let [a, b, c] = normals.map(Normal3D::as_vector);
         (a * (1.0 - v - w) + b * v + c * w).normalise().ok()
     }
@@ -311,25 +342,46 @@ impl Primitive for Mesh {
         let triangle = crossing.feature.face as usize;
         let data = &self.0.data;
         let [a, b, c] = data.corners(triangle);
-        let [v, w] = crossing.feature.uv;
-        let point = a + a.vector_to(b) * v + a.vector_to(c) * w;
         let towards_viewer = || {
             // A triangle without area is met by no ray; whatever may come here faces the ray.
             Normal3D::from(-ray.direction.normalise_unchecked())
         };
         let normal = data.face_normal(triangle).unwrap_or_else(towards_viewer);
-        let smooth = if self.0.smoothing { self.corner_normal(crossing) } else { None };
         let size = a.max_abs().max(b.max_abs()).max(c.max_abs());
         Surface {
-            point,
+            point: self.point(&crossing.feature),
             normal,
-            shading_normal: smooth.map_or(normal, Normal3D::from),
+            shading_normal: self.shading_normal(&crossing.feature).unwrap_or(normal),
             bound: 16.0 * f64::EPSILON * size,
         }
     }
 
     fn is_solid(&self) -> bool {
         self.0.closed
+    }
+
+    fn surface_sampling(&self) -> SurfaceSampling {
+        SurfaceSampling::Area
+    }
+
+    /// Uniform over all of the area that may face `from`; what faces away nevertheless gives nothing.
+    fn sample_surface(&self, from: Point3D, u: [f64; 3]) -> Option<SurfaceSample> {
+        let (face, uv) = self.areas().draw(from, !self.0.closed, u)?;
+        let feature = Feature { face, uv, ..Feature::default() };
+        let point = self.point(&feature);
+        let density = self.surface_density(from, point, feature);
+        let normal = self.0.data.face_normal(face as usize)?;
+        let shading_normal = self.shading_normal(&feature);
+        (density > 0.0).then_some(SurfaceSample { point, normal, shading_normal, feature, density })
+    }
+
+    fn surface_density(&self, from: Point3D, _: Point3D, feature: Feature) -> f64 {
+        if !self.faces(feature.face, from) {
+            return 0.0;
+        }
+        // Of so small a mesh the area is no number.
+        let density = 1.0 / self.areas().seen_from(from, !self.0.closed);
+        if density.is_finite() { density } else { 0.0 }
     }
 
     fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {

@@ -203,3 +203,39 @@ fn what_enters_at_an_edge_comes_out_at_once_or_goes_through() {
         }
     }
 }
+
+#[test]
+fn points_are_drawn_on_the_surface_that_rays_meet() {
+    let mut rng = Rng::new(8);
+    let (coarse, triangles) = (icosphere(2, 1.0), icosphere(2, 1.0).triangles().to_vec());
+    let normals: Vec<Normal3D> = coarse.vertices().iter().map(|v| Normal3D::from(v.to_vector())).collect();
+    let smooth = coarse.clone().with_normals(normals, triangles).unwrap();
+    for data in [coarse, smooth] {
+        for closed in [true, false] {
+            let mesh = Mesh::builder(data.clone()).closed(closed).build().unwrap();
+            let from = Point3D::new(2.0, -1.0, 3.0);
+            let (mut drawn, count) = (0, 2000);
+            for _ in 0..count {
+                let u = [rng.uniform(), rng.uniform(), rng.uniform()];
+                let Some(sample) = mesh.sample_surface(from, u) else { continue };
+                drawn += 1;
+                assert_eq!(mesh.surface_density(from, sample.point, sample.feature), sample.density);
+                let ray = Ray::new(from, from.vector_to(sample.point));
+                let mut all = Vec::new();
+                mesh.crossings(&ray, &mut Scratch::default(), &mut all);
+                let near =
+                    all.iter().min_by(|a, b| (a.distance - 1.0).abs().total_cmp(&(b.distance - 1.0).abs()));
+                let met = mesh.surface(&ray, near.unwrap());
+                assert!(met.point.distance_to(sample.point) < 1e-12);
+                let same = |a: Normal3D, b: Normal3D| (a.as_vector() - b.as_vector()).length() < 1e-9;
+                assert!(
+                    same(met.normal, sample.normal)
+                        && same(met.shading_normal, sample.shading_normal.unwrap_or(sample.normal))
+                );
+                assert!(!closed || sample.normal.dot(ray.direction) < 0.0);
+            }
+            // Of a ball most draws face the point; of a sheet both sides do.
+            assert!(if closed { (1000..count).contains(&drawn) } else { drawn == count }, "{drawn}");
+        }
+    }
+}

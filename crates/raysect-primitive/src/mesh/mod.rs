@@ -1,5 +1,6 @@
 //! Triangle meshes: their data, their state of health and their files.
 
+mod areas;
 mod block;
 mod builder;
 mod data;

@@ -74,7 +74,7 @@ impl RoughDielectric {
 /// Reflectance of a facet and the cosine of refraction, which is 0 for total reflection.
 #[inline]
 fn split(cosine: f64, at: Context<'_>) -> (f64, f64) {
-    fresnel(cosine.min(1.0), at.index_in / at.index_out).unwrap_or((1.0, 0.0))
+    fresnel(cosine.min(1.0), at.index_in, at.index_out).unwrap_or((1.0, 0.0))
 }
 
 /// The facet that reflects one direction into another, with the cosine to it.
