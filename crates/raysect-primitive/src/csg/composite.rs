@@ -197,16 +197,14 @@ impl Composite {
         b: &[Crossing],
         emit: &mut impl FnMut(Crossing) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        if b.is_empty() {
-            // Nothing to be taken away or added, or nothing in common.
+        let [Some(ends_of_a), Some(ends_of_b)] = [ends(a), ends(b)] else {
+            // Nothing to be taken away or added, or nothing in common. Only a union comes here without the first operand.
             let kept = if self.operation == Operation::Intersect { &[] } else { a };
-            return kept.iter().copied().try_for_each(emit);
-        }
-        if a.is_empty() {
-            // Only a union comes here.
+            kept.iter().copied().try_for_each(&mut *emit)?;
             return b.iter().try_for_each(|c| emit(self.as_own(c, true)));
-        }
-        let ties = TieRule::new(self, ray, reach, a, b);
+        };
+        let farthest = larger(ends_of_a, ends_of_b);
+        let ties = TieRule::new(self, ray, reach + farthest);
         let (mut i, mut j) = (0, 0);
         // Selections and no branches: whose crossing comes next cannot be foretold.
         let (mut state, mut inside, mut last) = (0, false, f64::NEG_INFINITY);
@@ -254,6 +252,12 @@ impl Composite {
         let feature = self.own_feature(crossing, of_b);
         Crossing { feature, exiting: crossing.exiting != inverted, ..*crossing }
     }
+}
+
+/// How far the first or the last of crossings in order is, if there are any.
+#[inline]
+fn ends(crossings: &[Crossing]) -> Option<f64> {
+    Some(larger(crossings.first()?.distance.abs(), crossings.last()?.distance.abs()))
 }
 
 impl std::fmt::Debug for Composite {
@@ -350,12 +354,13 @@ impl Primitive for Composite {
         let feature = Feature { part, ..crossing.feature };
         let inverted = self.operation == Operation::Subtract;
         let exiting = crossing.exiting != inverted;
-        let surface = self.b.surface(ray, &Crossing { feature, exiting, ..*crossing });
-        if !inverted {
-            return surface;
+        let mut surface = self.b.surface(ray, &Crossing { feature, exiting, ..*crossing });
+        if inverted {
+            let turned = |n: Normal3D| Normal3D::from(-n.as_vector());
+            surface.normal = turned(surface.normal);
+            surface.shading_normal = turned(surface.shading_normal);
         }
-        let turned = |n: Normal3D| Normal3D::from(-n.as_vector());
-        Surface { normal: turned(surface.normal), shading_normal: turned(surface.shading_normal), ..surface }
+        surface
     }
 
     fn is_convex(&self) -> bool {

@@ -167,11 +167,13 @@ impl Member {
 
     /// The surface at a crossing of the operand, in the space of the composite.
     pub(super) fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
-        let local = self.shape.surface(&self.local(ray), crossing);
         let rounding = 16.0 * f64::EPSILON;
         if self.in_place {
-            return Surface { bound: local.bound + rounding * local.point.max_abs(), ..local };
+            let mut surface = self.shape.surface(ray, crossing);
+            surface.bound += rounding * surface.point.max_abs();
+            return surface;
         }
+        let local = self.shape.surface(&self.local(ray), crossing);
         let point = self.to_parent.transform_point(local.point);
         let upright = |n: Normal3D| self.to_local.transform_normal_with_inverse(n).normalise_unchecked();
         let normal = upright(local.normal);

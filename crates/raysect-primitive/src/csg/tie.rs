@@ -24,18 +24,10 @@ pub(super) struct TieRule<'a> {
 }
 
 impl<'a> TieRule<'a> {
-    /// `a` and `b` are not empty, and in order; `reach` is how far the greatest coordinate that enters is along the ray.
+    /// `lengths` is how far what enters reaches, in units of the direction's length.
     #[inline]
-    pub(super) fn new(
-        composite: &'a Composite,
-        ray: &'a Ray,
-        reach: f64,
-        a: &[Crossing],
-        b: &[Crossing],
-    ) -> Self {
-        let ends = [a.first(), a.last(), b.first(), b.last()];
-        let farthest = ends.into_iter().flatten().fold(0.0, |far, c| larger(far, c.distance.abs()));
-        Self { composite, ray, near: EXAMINED * (reach + farthest) }
+    pub(super) fn new(composite: &'a Composite, ray: &'a Ray, lengths: f64) -> Self {
+        Self { composite, ray, near: EXAMINED * lengths }
     }
 
     /// If two crossings, one of each operand, are one event: true if the second speaks for it.
