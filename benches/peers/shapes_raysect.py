@@ -43,8 +43,11 @@ for hit, rays in asked:
     if hit is None:
         print("nan")
         continue
-    start = time.perf_counter()
-    deque(map(hit, rays), maxlen=0)
-    print(len(rays) / (time.perf_counter() - start))
+    best = 0
+    for _ in range(5):
+        start = time.perf_counter()
+        deque(map(hit, rays), maxlen=0)
+        best = max(best, len(rays) / (time.perf_counter() - start))
+    print(best)
 for rays in sets[:2]:
     print(sum(world.hit(ray) is not None for ray in rays))

@@ -152,8 +152,7 @@ impl Cuboid {
         let (near_z, far_z) = Self::within_slab(o.z, d.z, low.z, high.z)?;
         let (near_xy, far_xy) = (larger(near_x, near_y), smaller(far_x, far_y));
         let axis = |y: bool, z: bool| (2 * u32::from(z)).max(u32::from(y));
-        let (came, goes) =
-            (axis(near_y > near_x, near_z > near_xy), axis(far_y < far_x, far_z < far_xy));
+        let (came, goes) = (axis(near_y > near_x, near_z > near_xy), axis(far_y < far_x, far_z < far_xy));
         let backward = u32::from(d.x < 0.0) | (u32::from(d.y < 0.0) << 1) | (u32::from(d.z < 0.0) << 2);
         Some(Passage {
             near: larger(near_xy, near_z),
