@@ -67,7 +67,12 @@ impl<A> Instance<A> {
         }
     }
 
-    /// A ray in the space of the shape, if that is not the space of the world.
+    /// A ray in the space of the shape: itself where that is the space of the world, else in the room lent for it.
+    #[inline]
+    fn local<'a>(&self, ray: &'a Ray, room: &'a mut Option<Ray>) -> &'a Ray {
+        if self.in_place { ray } else { room.insert(self.moved(ray)) }
+    }
+
     #[inline]
     fn moved(&self, ray: &Ray) -> Ray {
         Ray {
@@ -350,13 +355,8 @@ impl<A: Attachment> Scene<A> {
         if instance.convex && returns.is_some_and(|leaving| !leaving.departure.inward) {
             return None;
         }
-        let moved;
-        let local = if instance.in_place {
-            ray
-        } else {
-            moved = instance.moved(ray);
-            &moved
-        };
+        let mut room = None;
+        let local = instance.local(ray, &mut room);
         match (returns, leaving) {
             (Some(leaving), _) => instance.hit_after(local, leaving, limit, scratch),
             (None, None) => instance.primitive.hit(local, Interval::new(0.0, limit), scratch),
@@ -521,7 +521,8 @@ impl<A: Attachment> Scene<A> {
         self.accelerator.visit(&prepared, ray.max_distance, &mut |index, limit| {
             let instance = &self.instances[index as usize];
             list.clear();
-            instance.primitive.crossings(&instance.moved(ray), scratch, &mut list);
+            let mut room = None;
+            instance.primitive.crossings(instance.local(ray, &mut room), scratch, &mut list);
             let ahead = list.iter().filter(|c| c.distance >= 0.0 && c.distance <= ray.max_distance);
             all.extend(ahead.map(|&crossing| Candidate { instance: index, crossing }));
             limit
