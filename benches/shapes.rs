@@ -24,13 +24,16 @@ use raysect::prelude::{
 const WORLDS: [&str; 7] = ["sphere", "cuboid", "cylinder", "cone", "parabola", "torus", "composites"];
 
 /// Puts a shape into a world, and has it besides.
-fn add(world: &mut World<()>, shape: impl Primitive + Clone) -> raysect::Result<Option<Arc<dyn Primitive>>> {
+fn add(world: &mut World<()>, shape: impl Primitive + Clone) -> raysect::Result<Single> {
     world.add(shape.clone())?;
     Ok(Some(Arc::new(shape)))
 }
 
-/// A world by its name, and the shape that it has by itself.
-fn world(name: &str) -> raysect::Result<(World<()>, Option<Arc<dyn Primitive>>)> {
+/// The shape that a world has by itself.
+type Single = Option<Arc<dyn Primitive>>;
+
+/// A world by its name, and its shape.
+fn world(name: &str) -> raysect::Result<(World<()>, Single)> {
     let mut world = World::new();
     let shape = match name {
         "sphere" => add(&mut world, Sphere::new(1.0)?)?,
