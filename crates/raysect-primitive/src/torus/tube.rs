@@ -298,6 +298,37 @@ mod tests {
     use raysect_math::{Rng, solve_cubic};
 
     #[test]
+    fn the_swift_way_finds_the_roots_of_the_safe_one() {
+        let mut rng = Rng::new(3);
+        for minor in [1e-6, 0.1, 0.43, 1.0] {
+            let tube = Tube::new(1.0, minor);
+            let (mut swift, mut all) = (0, 0);
+            let mut draw = |size: f64| {
+                Vector3D::new(rng.range(-size, size), rng.range(-size, size), rng.range(-size, size))
+            };
+            for _ in 0..20_000 {
+                let beside = draw(1.0).normalise_unchecked() * minor;
+                let ray = Ray::new(Point3D::new(1.0, 0.0, 0.0) + beside * 0.9, draw(1.0));
+                let Some(line) = tube.line(&ray) else { continue };
+                for bracket in tube.brackets(&line).iter() {
+                    all += 1;
+                    let Some(root) = tube.swift_root(&line, bracket) else { continue };
+                    swift += 1;
+                    let safe = tube.safe_root(&line, bracket);
+                    // Rounding across the surface, which a line along it crosses over a longer way.
+                    let slope =
+                        (tube.gradient(Point3D::ORIGIN + line.at(safe) * tube.unit).dot(line.direction)
+                            / minor)
+                            .abs();
+                    let doubt = 8.0 * f64::EPSILON * (tube.major + minor) / slope;
+                    assert!((root - safe).abs() <= doubt, "{minor}: {root} {safe} {slope}");
+                }
+            }
+            assert!(all > 30_000 && swift as f64 > 0.9 * all as f64, "{minor}: {swift} of {all}");
+        }
+    }
+
+    #[test]
     fn depressed_cubics_as_the_general_solver_has_them() {
         let mut rng = Rng::new(2);
         for number in 0..30_000 {
