@@ -1,5 +1,7 @@
 //! Rays against worlds of shapes: this tracer and Raysect 0.9.1, the same worlds and the same rays, in turn in one run.
 //!
+//! A miss costs Raysect little more than the call; since many rays of the sets miss, those that hit are measured besides.
+//!
 //! `cargo bench --bench shapes [-- NAME …]`; the other side runs if `RAYSECT_PYTHON` names a Python that has it (see
 //! `benches/peers/README.md`).
 
@@ -21,26 +23,31 @@ use raysect::prelude::{
 
 const WORLDS: [&str; 7] = ["sphere", "cuboid", "cylinder", "cone", "parabola", "torus", "composites"];
 
-/// A shape that a world has by itself.
-fn shape(name: &str) -> raysect::Result<Option<Arc<dyn Primitive>>> {
-    Ok(Some(match name {
-        "sphere" => Arc::new(Sphere::new(1.0)?),
-        "cuboid" => Arc::new(Cuboid::centred(1.0, 1.2, 0.8)?),
-        "cylinder" => Arc::new(Cylinder::new(0.7, 1.2)?),
-        "cone" => Arc::new(Cone::new(0.7, 1.2)?),
-        "parabola" => Arc::new(Parabola::new(0.7, 1.2)?),
-        "torus" => Arc::new(Torus::new(0.7, 0.3)?),
-        _ => return Ok(None),
-    }))
+/// Puts a shape into a world, and has it besides.
+fn add(world: &mut World<()>, shape: impl Primitive + Clone) -> raysect::Result<Single> {
+    world.add(shape.clone())?;
+    Ok(Some(Arc::new(shape)))
 }
 
-fn world(name: &str) -> raysect::Result<World<()>> {
+/// The shape that a world has by itself.
+type Single = Option<Arc<dyn Primitive>>;
+
+/// A world by its name, and its shape.
+fn world(name: &str) -> raysect::Result<(World<()>, Single)> {
     let mut world = World::new();
-    match shape(name)? {
-        Some(shape) => drop(world.add(shape)?),
-        None => composites(&mut world)?,
-    }
-    Ok(world)
+    let shape = match name {
+        "sphere" => add(&mut world, Sphere::new(1.0)?)?,
+        "cuboid" => add(&mut world, Cuboid::centred(1.0, 1.2, 0.8)?)?,
+        "cylinder" => add(&mut world, Cylinder::new(0.7, 1.2)?)?,
+        "cone" => add(&mut world, Cone::new(0.7, 1.2)?)?,
+        "parabola" => add(&mut world, Parabola::new(0.7, 1.2)?)?,
+        "torus" => add(&mut world, Torus::new(0.7, 0.3)?)?,
+        _ => {
+            composites(&mut world)?;
+            None
+        }
+    };
+    Ok((world, shape))
 }
 
 /// Four bodies of a ball, a cube and three drillings, and a lens of two balls, in a large box: the scene of Raysect's
@@ -68,49 +75,65 @@ fn composites(world: &mut World<()>) -> raysect::Result<()> {
     Ok(())
 }
 
-fn sets(name: &str, count: usize) -> [Vec<Ray>; 2] {
+/// The ways in which a world is asked: all rays of both orders, those of them that hit, and the shape alone.
+const WAYS: [&str; 6] =
+    ["coherent", "incoherent", "coherent, hits", "incoherent, hits", "coherent, alone", "incoherent, alone"];
+
+/// The rays of the first four ways.
+fn sets(name: &str, world: &World<()>, count: usize) -> raysect::Result<[Vec<Ray>; 4]> {
     let (centre, radius) = if name == "composites" { (Point3D::ORIGIN, 4.0) } else { (Point3D::ORIGIN, 1.0) };
-    [Order::Coherent, Order::Incoherent].map(|order| rays::rays(order, centre, radius, count))
+    let [coherent, incoherent] =
+        [Order::Coherent, Order::Incoherent].map(|order| rays::rays(order, centre, radius, count));
+    let scene = world.scene()?;
+    let mut scratch = Scratch::default();
+    let mut hitting = |rays: &[Ray]| {
+        rays.iter().copied().filter(|ray| scene.hit(ray, None, &mut scratch).is_some()).collect()
+    };
+    let hits = [hitting(&coherent), hitting(&incoherent)];
+    let [first, second] = hits;
+    Ok([coherent, incoherent, first, second])
 }
 
 /// Hits per second of a set of rays, each with the surface that was hit, as Raysect's `World.hit` answers.
 fn ours(world: &World<()>, rays: &[Ray]) -> raysect::Result<f64> {
     let scene = world.scene()?;
     let mut scratch = Scratch::default();
-    let start = Instant::now();
-    let mut sum = 0.0;
-    for ray in rays {
+    Ok(rate(rays, |ray| {
         let hit = scene.hit(ray, None, &mut scratch);
-        sum += hit.map_or(0.0, |hit| scene.finish(ray, &hit).bound);
-    }
-    black_box(sum);
-    Ok(rays.len() as f64 / start.elapsed().as_secs_f64())
+        hit.map_or(0.0, |hit| scene.finish(ray, &hit).bound)
+    }))
 }
 
 /// The same of a shape alone, in its own space.
 fn alone(shape: &dyn Primitive, rays: &[Ray]) -> f64 {
     let mut scratch = Scratch::default();
-    let start = Instant::now();
-    let mut sum = 0.0;
-    for ray in rays {
+    rate(rays, |ray| {
         let hit = black_box(shape).hit(ray, Interval::AHEAD, &mut scratch);
-        sum += hit.map_or(0.0, |hit| shape.surface(ray, &hit).bound);
-    }
-    black_box(sum);
-    rays.len() as f64 / start.elapsed().as_secs_f64()
+        hit.map_or(0.0, |hit| shape.surface(ray, &hit).bound)
+    })
 }
 
-/// Hits per second of both sets, in a world and, of a single shape, alone.
-fn theirs(python: &str, name: &str, sets: &[Vec<Ray>; 2], count: usize) -> Result<[f64; 4], String> {
+/// Calls per second: the best of some passes, which other work on the machine disturbs least.
+fn rate(rays: &[Ray], mut call: impl FnMut(&Ray) -> f64) -> f64 {
+    let pass = |_| {
+        let start = Instant::now();
+        black_box(rays.iter().map(&mut call).sum::<f64>());
+        rays.len() as f64 / start.elapsed().as_secs_f64()
+    };
+    (0..PASSES).map(pass).fold(0.0, f64::max)
+}
+
+/// How often either side goes through a set in a round.
+const PASSES: usize = 5;
+
+/// Hits per second of each way, and how many rays of the first two sets hit the world.
+fn theirs(python: &str, name: &str, sets: &[Vec<Ray>; 4]) -> Result<([f64; 6], [usize; 2]), String> {
     let path = std::env::temp_dir().join(format!("raysect-rays-{}", std::process::id()));
     let numbers = |rays: &[Ray]| -> Vec<u8> {
-        let chosen = rays.iter().step_by(rays.len().div_ceil(count));
-        chosen
-            .flat_map(|r| r.origin.to_array().into_iter().chain(r.direction.to_array()))
-            .flat_map(f64::to_le_bytes)
-            .collect()
+        let each = rays.iter().flat_map(|r| r.origin.to_array().into_iter().chain(r.direction.to_array()));
+        each.flat_map(f64::to_le_bytes).collect()
     };
-    let files = ["coherent", "incoherent"].map(|order| path.with_extension(order));
+    let files = ["0", "1", "2", "3"].map(|number| path.with_extension(number));
     for (file, rays) in files.iter().zip(sets) {
         std::fs::write(file, numbers(rays)).map_err(|e| e.to_string())?;
     }
@@ -121,38 +144,51 @@ fn theirs(python: &str, name: &str, sets: &[Vec<Ray>; 2], count: usize) -> Resul
         return Err(String::from_utf8_lossy(&run.stderr).into_owned());
     }
     let text = String::from_utf8_lossy(&run.stdout);
-    let rates: Vec<f64> = text.split_whitespace().filter_map(|x| x.parse().ok()).collect();
-    rates.try_into().map_err(|_| format!("not four numbers: {text}"))
+    let wrong = || format!("not six numbers and two counts: {text}");
+    let mut words = text.split_whitespace();
+    let rates: Vec<f64> = words.by_ref().take(6).filter_map(|x| x.parse().ok()).collect();
+    let counts: Vec<usize> = words.filter_map(|x| x.parse().ok()).collect();
+    Ok((rates.try_into().map_err(|_| wrong())?, counts.try_into().map_err(|_| wrong())?))
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+/// The best of all rounds.
+fn best(rates: Vec<f64>) -> f64 {
+    rates.into_iter().reduce(f64::max).unwrap_or(f64::NAN)
 }
 
 fn main() -> raysect::Result<()> {
     // `cargo test --benches` only wants to know that it runs.
     let test = std::env::args().any(|a| a == "--test");
-    let (count, rounds) = if test { (1 << 8, 1) } else { (1 << 18, 5) };
+    let (count, rounds) = if test { (1 << 8, 1) } else { (1 << 15, 5) };
     let python = std::env::var("RAYSECT_PYTHON").ok().filter(|_| !test);
     let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     for name in WORLDS.into_iter().filter(|n| wanted.is_empty() || wanted.iter().any(|w| w == n)) {
-        let (world, shape, sets) = (world(name)?, shape(name)?, sets(name, count));
-        let mut rates: [[Vec<f64>; 4]; 2] = Default::default();
+        let (world, shape) = world(name)?;
+        let sets = sets(name, &world, count)?;
+        let counts = [sets[2].len(), sets[3].len()];
+        let share = |set: usize| 100.0 * counts[set] as f64 / sets[set].len() as f64;
+        println!("{name:<11} hit by {:.1} % and {:.1} % of the rays", share(0), share(1));
+        let mut rates: [[Vec<f64>; 6]; 2] = Default::default();
         for _ in 0..rounds {
-            for (set, rays) in sets.iter().enumerate() {
-                rates[0][set].push(ours(&world, rays)?);
-                rates[0][2 + set].push(shape.as_ref().map_or(f64::NAN, |shape| alone(shape, rays)));
+            for (way, rays) in sets.iter().enumerate() {
+                rates[0][way].push(ours(&world, rays)?);
             }
-            match python.as_ref().map(|python| theirs(python, name, &sets, 30_000)) {
-                Some(Ok(found)) => rates[1].iter_mut().zip(found).for_each(|(rates, rate)| rates.push(rate)),
+            for way in 0..2 {
+                rates[0][4 + way].push(shape.as_ref().map_or(f64::NAN, |shape| alone(shape, &sets[way])));
+            }
+            match python.as_ref().map(|python| theirs(python, name, &sets)) {
+                Some(Ok((found, theirs))) => {
+                    rates[1].iter_mut().zip(found).for_each(|(rates, rate)| rates.push(rate));
+                    if theirs != counts {
+                        println!("{name:<11} {counts:?} rays hit here, {theirs:?} there");
+                    }
+                }
                 Some(Err(what)) => println!("{name}: the other side did not run: {what}"),
                 None => {}
             }
         }
-        let [mine, other] = rates.map(|all| all.map(median));
-        let ways = ["coherent", "incoherent", "coherent, alone", "incoherent, alone"];
-        for (way, (a, b)) in ways.iter().zip(mine.into_iter().zip(other)).filter(|(_, (a, _))| !a.is_nan()) {
+        let [mine, other] = rates.map(|all| all.map(best));
+        for (way, (a, b)) in WAYS.iter().zip(mine.into_iter().zip(other)).filter(|(_, (a, _))| !a.is_nan()) {
             let ratio =
                 if b.is_nan() { String::new() } else { format!("   Raysect {b:.3e}   ratio {:.1}", a / b) };
             println!("{name:<11} {way:<18} {a:.3e} hits/s{ratio}");

@@ -6,13 +6,16 @@ use crate::CoreError;
 ///
 /// Distances along it are counted in units of the length of `direction`: metres for a unit direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
+// In this order x and y of both lie where pairs of numbers are stored and loaded at once: a pair that is loaded across two
+// stores has to wait for both.
+#[repr(C)]
 pub struct Ray {
     /// Where it begins [m].
     pub origin: Point3D,
-    /// Where it goes; need not be of unit length.
-    pub direction: Vector3D,
     /// Where it ends, in units of the direction's length; infinity by default.
     pub max_distance: f64,
+    /// Where it goes; need not be of unit length.
+    pub direction: Vector3D,
 }
 
 impl Default for Ray {

@@ -67,11 +67,14 @@ impl<A> Instance<A> {
         }
     }
 
+    /// A ray in the space of the shape: itself where that is the space of the world, else in the room lent for it.
     #[inline]
-    fn local(&self, ray: &Ray) -> Ray {
-        if self.in_place {
-            return *ray;
-        }
+    fn local<'a>(&self, ray: &'a Ray, room: &'a mut Option<Ray>) -> &'a Ray {
+        if self.in_place { ray } else { room.insert(self.moved(ray)) }
+    }
+
+    #[inline]
+    fn moved(&self, ray: &Ray) -> Ray {
         Ray {
             origin: self.to_local.transform_point(ray.origin),
             direction: self.to_local.transform_vector(ray.direction),
@@ -331,6 +334,10 @@ impl<A: Attachment> Scene<A> {
 
     #[inline]
     fn hit_few(&self, ray: &Ray, leaving: Option<&Leaving>, scratch: &mut Scratch) -> Option<Candidate> {
+        if let [_] = self.instances[..] {
+            let crossing = self.hit_instance(0, ray, leaving, ray.max_distance, scratch)?;
+            return Some(Candidate { instance: 0, crossing });
+        }
         let (mut best, mut limit) = (None, ray.max_distance);
         for index in 0..self.instances.len() as u32 {
             let Some(crossing) = self.hit_instance(index, ray, leaving, limit, scratch) else { continue };
@@ -354,17 +361,31 @@ impl<A: Attachment> Scene<A> {
         scratch: &mut Scratch,
     ) -> Option<Crossing> {
         let instance = &self.instances[index as usize];
-        let Some(leaving) = leaving else {
-            return instance.primitive.hit(&instance.local(ray), Interval::new(0.0, limit), scratch);
-        };
-        if leaving.instance == index {
-            if instance.convex && !leaving.departure.inward {
-                return None;
-            }
-            return instance.hit_after(&instance.local(ray), leaving, limit, scratch);
+        let returns = leaving.filter(|leaving| leaving.instance == index);
+        if instance.convex && returns.is_some_and(|leaving| !leaving.departure.inward) {
+            return None;
         }
-        let local = instance.local(ray);
-        let crossing = instance.primitive.hit(&local, Interval::new(-leaving.zone, limit), scratch)?;
+        let mut room = None;
+        let local = instance.local(ray, &mut room);
+        match (returns, leaving) {
+            (Some(leaving), _) => instance.hit_after(local, leaving, limit, scratch),
+            (None, None) => instance.primitive.hit(local, Interval::new(0.0, limit), scratch),
+            (None, Some(leaving)) => self.hit_other(index, [ray, local], leaving, limit, scratch),
+        }
+    }
+
+    /// The nearest hit of an instance by a ray, in the world and in its space, that leaves another one.
+    #[inline]
+    fn hit_other(
+        &self,
+        index: u32,
+        [ray, local]: [&Ray; 2],
+        leaving: &Leaving,
+        limit: f64,
+        scratch: &mut Scratch,
+    ) -> Option<Crossing> {
+        let instance = &self.instances[index as usize];
+        let crossing = instance.primitive.hit(local, Interval::new(-leaving.zone, limit), scratch)?;
         if crossing.distance > leaving.zone {
             return Some(crossing);
         }
@@ -372,7 +393,7 @@ impl<A: Attachment> Scene<A> {
         if leaving.pending(index, normal) {
             return Some(Crossing { distance: crossing.distance.max(0.0), ..crossing });
         }
-        instance.primitive.hit(&local, Interval::new(leaving.zone.next_up(), limit), scratch)
+        instance.primitive.hit(local, Interval::new(leaving.zone.next_up(), limit), scratch)
     }
 
     /// True if an instance that `blocks` stands in the way of a ray before its `max_distance`.
@@ -401,7 +422,7 @@ impl<A: Attachment> Scene<A> {
         if instance.in_place {
             return Self::finish_in_place(instance, ray, hit);
         }
-        let local = instance.primitive.surface(&instance.local(ray), &hit.crossing);
+        let local = instance.primitive.surface(&instance.moved(ray), &hit.crossing);
         let point = instance.to_world.transform_point(local.point);
         let normal = instance.upright(local.normal);
         let shading_normal = if local.shading_normal == local.normal {
@@ -504,7 +525,8 @@ impl<A: Attachment> Scene<A> {
         self.accelerator.visit(&prepared, ray.max_distance, &mut |index, limit| {
             let instance = &self.instances[index as usize];
             list.clear();
-            instance.primitive.crossings(&instance.local(ray), scratch, &mut list);
+            let mut room = None;
+            instance.primitive.crossings(instance.local(ray, &mut room), scratch, &mut list);
             let ahead = list.iter().filter(|c| c.distance >= 0.0 && c.distance <= ray.max_distance);
             all.extend(ahead.map(|&crossing| Candidate { instance: index, crossing }));
             limit

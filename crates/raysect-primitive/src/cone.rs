@@ -90,7 +90,19 @@ impl Cone {
     #[inline]
     fn passage(&self, ray: &Ray) -> Passage {
         let near = NearTip::new(ray, self.height);
-        self.side(&near).above_base(&near.ray).counted_from(near.moved)
+        Self::above_base(self.side(&near), &near)
+    }
+
+    /// As [`passage`](Self::passage), unless the line is outside of the side for all its length.
+    #[inline]
+    fn passage_that_meets(&self, ray: &Ray) -> Option<Passage> {
+        let near = NearTip::new(ray, self.height);
+        self.side(&near).that_meets().map(|side| Self::above_base(side, &near))
+    }
+
+    #[inline]
+    fn above_base(side: Passage, near: &NearTip) -> Passage {
+        side.above_base(&near.ray).counted_from(near.moved)
     }
 
     /// Within the endless cone below the apex, ρ ≤ k w with w counted downwards from the apex.
@@ -193,12 +205,14 @@ impl Primitive for Cone {
     }
 
     fn crossings(&self, ray: &Ray, _: &mut Scratch, out: &mut Vec<Crossing>) {
-        self.passage(ray).report(out);
+        if let Some(passage) = self.passage_that_meets(ray) {
+            passage.report(out);
+        }
     }
 
     #[inline]
     fn hit(&self, ray: &Ray, within: Interval, _: &mut Scratch) -> Option<Crossing> {
-        self.passage(ray).first(within)
+        self.passage_that_meets(ray)?.first(within)
     }
 
     fn hit_after(&self, ray: &Ray, left: &Departure, max_distance: f64, _: &mut Scratch) -> Option<Crossing> {

@@ -25,8 +25,8 @@ use crate::PrimitiveError;
 #[doc(alias = "Box")]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cuboid {
-    lower: Point3D,
-    upper: Point3D,
+    /// Of least and of greatest coordinates [m].
+    corners: [Point3D; 2],
     sheet: Option<usize>,
     centre: [f64; 3],
     /// Of a face across each axis [m²].
@@ -42,6 +42,16 @@ impl Default for Cuboid {
     }
 }
 
+/// Outward unit normals of the faces.
+const NORMALS: [Normal3D; 6] = [
+    Normal3D::new(-1.0, 0.0, 0.0),
+    Normal3D::new(1.0, 0.0, 0.0),
+    Normal3D::new(0.0, -1.0, 0.0),
+    Normal3D::new(0.0, 1.0, 0.0),
+    Normal3D::new(0.0, 0.0, -1.0),
+    Normal3D::new(0.0, 0.0, 1.0),
+];
+
 /// Where a line runs through the slabs of a cuboid, and by which faces it comes and goes.
 struct Passage {
     near: f64,
@@ -54,6 +64,18 @@ struct Passage {
 #[inline]
 fn face_number(axis: usize, upper: bool) -> u32 {
     2 * axis as u32 + u32::from(upper)
+}
+
+/// The larger of two numbers, the first among equals; in one instruction, since neither is a NaN.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
+/// The smaller of two numbers, the first among equals.
+#[inline(always)]
+fn smaller(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
 }
 
 impl Cuboid {
@@ -84,7 +106,7 @@ impl Cuboid {
         let centre = [0, 1, 2].map(|a| 0.5 * lower[a] + 0.5 * upper[a]);
         let areas = [extent.y * extent.z, extent.z * extent.x, extent.x * extent.y];
         let longest = faces::NEAR * extent.max_abs();
-        Self { lower, upper, sheet, centre, areas, near: longest * longest }
+        Self { corners: [lower, upper], sheet, centre, areas, near: longest * longest }
     }
 
     /// Of given extents along the axes, centred on the origin [m].
@@ -96,13 +118,15 @@ impl Cuboid {
     }
 
     /// The corner of least coordinates [m].
+    #[inline]
     pub fn lower(&self) -> Point3D {
-        self.lower
+        self.corners[0]
     }
 
     /// The corner of greatest coordinates [m].
+    #[inline]
     pub fn upper(&self) -> Point3D {
-        self.upper
+        self.corners[1]
     }
 
     /// True if one extent is zero.
@@ -113,42 +137,39 @@ impl Cuboid {
     /// The outward unit normal of a face.
     #[inline]
     fn normal(axis: usize, upper: bool) -> Normal3D {
-        let sign = if upper { 1.0 } else { -1.0 };
-        match axis {
-            0 => Normal3D::new(sign, 0.0, 0.0),
-            1 => Normal3D::new(0.0, sign, 0.0),
-            _ => Normal3D::new(0.0, 0.0, sign),
-        }
+        NORMALS[(face_number(axis, upper) % 6) as usize]
     }
 
     /// The common interval of the three slabs, possibly empty (`near > far`); none if the ray runs beside a slab.
+    ///
+    /// The slabs do not wait for each other, and selections take the place of branches: which way lines run cannot be
+    /// foretold. Of faces at equal distance that of the first axis counts.
     #[inline]
     fn passage(&self, ray: &Ray) -> Option<Passage> {
-        let p = Passage { near: f64::NEG_INFINITY, far: f64::INFINITY, entry: 0, exit: 0 };
-        let (o, d, low, high) = (ray.origin, ray.direction, self.lower, self.upper);
-        let p = self.clip(p, 0, [o.x, d.x, low.x, high.x])?;
-        let p = self.clip(p, 1, [o.y, d.y, low.y, high.y])?;
-        self.clip(p, 2, [o.z, d.z, low.z, high.z])
+        let (o, d, low, high) = (ray.origin, ray.direction, self.lower(), self.upper());
+        let (near_x, far_x) = Self::within_slab(o.x, d.x, low.x, high.x)?;
+        let (near_y, far_y) = Self::within_slab(o.y, d.y, low.y, high.y)?;
+        let (near_z, far_z) = Self::within_slab(o.z, d.z, low.z, high.z)?;
+        let (near_xy, far_xy) = (larger(near_x, near_y), smaller(far_x, far_y));
+        let axis = |y: bool, z: bool| (2 * u32::from(z)).max(u32::from(y));
+        let (came, goes) = (axis(near_y > near_x, near_z > near_xy), axis(far_y < far_x, far_z < far_xy));
+        let backward = u32::from(d.x < 0.0) | (u32::from(d.y < 0.0) << 1) | (u32::from(d.z < 0.0) << 2);
+        Some(Passage {
+            near: larger(near_xy, near_z),
+            far: smaller(far_xy, far_z),
+            entry: 2 * came + ((backward >> came) & 1),
+            exit: 2 * goes + (!(backward >> goes) & 1),
+        })
     }
 
-    /// What is left of a passage between the faces `low` and `high` across an axis.
+    /// Where a line is between the coordinates `low` and `high` of an axis.
     #[inline(always)]
-    fn clip(&self, p: Passage, axis: usize, [o, d, low, high]: [f64; 4]) -> Option<Passage> {
+    fn within_slab(o: f64, d: f64, low: f64, high: f64) -> Option<(f64, f64)> {
         if d == 0.0 {
-            let beside = o < low || o > high || self.sheet == Some(axis);
-            return (!beside).then_some(p);
+            return (o >= low && o <= high).then_some((f64::NEG_INFINITY, f64::INFINITY));
         }
-        // Selections and no branches: which way lines run cannot be foretold.
-        let forward = d > 0.0;
-        let (nearer, farther) = if forward { (low, high) } else { (high, low) };
-        let (first, last) = ((nearer - o) / d, (farther - o) / d);
-        let (later, sooner) = (first > p.near, last < p.far);
-        Some(Passage {
-            near: if later { first } else { p.near },
-            entry: if later { face_number(axis, !forward) } else { p.entry },
-            far: if sooner { last } else { p.far },
-            exit: if sooner { face_number(axis, forward) } else { p.exit },
-        })
+        let (to_low, to_high) = ((low - o) / d, (high - o) / d);
+        Some((smaller(to_low, to_high), larger(to_low, to_high)))
     }
 
     fn crossing(distance: f64, face: u32, exiting: bool) -> Crossing {
@@ -162,9 +183,9 @@ impl Cuboid {
         if d[axis] == 0.0 {
             return None;
         }
-        let t = (self.lower.to_array()[axis] - o[axis]) / d[axis];
+        let t = (self.lower().to_array()[axis] - o[axis]) / d[axis];
         let (x, y, z) = (o[0] + t * d[0], o[1] + t * d[1], o[2] + t * d[2]);
-        let (low, high) = (self.lower, self.upper);
+        let (low, high) = (self.lower(), self.upper());
         // The coordinate across the sheet is met by construction, whatever rounding makes of it here.
         let within = (axis == 0 || (x >= low.x && x <= high.x))
             && (axis == 1 || (y >= low.y && y <= high.y))
@@ -175,11 +196,11 @@ impl Cuboid {
 
 impl Primitive for Cuboid {
     fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
-        BoundingBox3D { lower: self.lower, upper: self.upper }.transformed(m)
+        BoundingBox3D { lower: self.lower(), upper: self.upper() }.transformed(m)
     }
 
     fn contains(&self, point: Point3D) -> bool {
-        self.sheet.is_none() && (0..3).all(|a| point[a] >= self.lower[a] && point[a] <= self.upper[a])
+        self.sheet.is_none() && (0..3).all(|a| point[a] >= self.lower()[a] && point[a] <= self.upper()[a])
     }
 
     fn crossings(&self, ray: &Ray, _: &mut Scratch, out: &mut Vec<Crossing>) {
@@ -214,14 +235,19 @@ impl Primitive for Cuboid {
 
     #[inline]
     fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
-        let (axis, upper) = ((crossing.feature.face / 2) as usize, crossing.feature.face % 2 == 1);
-        let (low, high) = (self.lower, self.upper);
+        let face = crossing.feature.face % 6;
         let p = ray.point_at(crossing.distance);
-        let mut point = [p.x.clamp(low.x, high.x), p.y.clamp(low.y, high.y), p.z.clamp(low.z, high.z)];
-        point[axis % 3] = if upper { high.to_array()[axis % 3] } else { low.to_array()[axis % 3] };
-        let normal = Self::normal(axis, upper);
+        // Between corners, which are one on the face itself. They are looked up: which face is met cannot be foretold.
+        let between = |axis: usize, p: f64| {
+            let [on_lower, on_upper] = [face == face_number(axis, false), face == face_number(axis, true)];
+            let (low, high) =
+                (self.corners[usize::from(on_upper)][axis], self.corners[usize::from(!on_lower)][axis]);
+            smaller(larger(low, p), high)
+        };
+        let point = Point3D::new(between(0, p.x), between(1, p.y), between(2, p.z));
+        let normal = NORMALS[face as usize];
         // The point lies in the plane of the face exactly.
-        Surface { point: point.into(), normal, shading_normal: normal, bound: 0.0 }
+        Surface { point, normal, shading_normal: normal, bound: 0.0 }
     }
 
     fn is_solid(&self) -> bool {
@@ -229,8 +255,8 @@ impl Primitive for Cuboid {
     }
 
     fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
-        let saved = Saved::new("Cuboid").numbers("lower", &self.lower.to_array());
-        Ok(saved.numbers("upper", &self.upper.to_array()))
+        let saved = Saved::new("Cuboid").numbers("lower", &self.lower().to_array());
+        Ok(saved.numbers("upper", &self.upper().to_array()))
     }
 
     fn is_convex(&self) -> bool {

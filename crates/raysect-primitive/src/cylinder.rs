@@ -10,7 +10,7 @@ use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 use crate::PrimitiveError;
 use crate::revolution::{
     LOWER, Passage, SIDE, UPPER, ball_about_axis, chances, check_length, choose, disk_area, disk_reach,
-    face_of, flat_normal, half_arc, piece_weight, rounded_box, sample_disk, turned, within_disk,
+    face_of, half_arc, piece_weight, rounded_box, sample_disk, turned,
 };
 
 /// A cylinder about the z axis with flat ends at z = 0 and z = height.
@@ -79,7 +79,12 @@ impl Cylinder {
 
     #[inline]
     fn passage(&self, ray: &Ray) -> Passage {
-        self.side(ray).above_base(ray).below(self.height, ray)
+        self.between_ends(self.side(ray), ray)
+    }
+
+    #[inline]
+    fn between_ends(&self, side: Passage, ray: &Ray) -> Passage {
+        side.above_base(ray).below(self.height, ray)
     }
 
     /// Within the endless cylinder: a chord of a circle in the projection along the axis, symmetrical about the place
@@ -157,12 +162,14 @@ impl Primitive for Cylinder {
     }
 
     fn crossings(&self, ray: &Ray, _: &mut Scratch, out: &mut Vec<Crossing>) {
-        self.passage(ray).report(out);
+        if let Some(side) = self.side(ray).that_meets() {
+            self.between_ends(side, ray).report(out);
+        }
     }
 
     #[inline]
     fn hit(&self, ray: &Ray, within: Interval, _: &mut Scratch) -> Option<Crossing> {
-        self.passage(ray).first(within)
+        self.between_ends(self.side(ray).that_meets()?, ray).first(within)
     }
 
     fn hit_after(&self, ray: &Ray, left: &Departure, max_distance: f64, _: &mut Scratch) -> Option<Crossing> {
@@ -175,21 +182,22 @@ impl Primitive for Cylinder {
     #[inline]
     fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
         let p = ray.point_at(crossing.distance);
-        let face = crossing.feature.face;
-        if face != SIDE {
-            let (x, y) = within_disk(p.x, p.y, self.radius);
-            let point = Point3D::new(x, y, if face == UPPER { self.height } else { 0.0 });
-            let normal = flat_normal(face);
-            return Surface { point, normal, shading_normal: normal, bound: 0.0 };
-        }
+        let (face, radius) = (crossing.feature.face, self.radius);
         let rho = (p.x * p.x + p.y * p.y).sqrt();
         let (nx, ny) = if rho > 0.0 { (p.x / rho, p.y / rho) } else { (1.0, 0.0) };
-        let normal = Normal3D::new(nx, ny, 0.0);
+        // Selections and no branches: which face is met cannot be foretold.
+        let side = face == SIDE;
+        let (x, y) = if side || rho > radius { (nx * radius, ny * radius) } else { (p.x, p.y) };
+        let below_top = if p.z > self.height { self.height } else { p.z };
+        let along_side = if p.z < 0.0 { 0.0 } else { below_top };
+        let (end, outward) = if face == UPPER { (self.height, 1.0) } else { (0.0, -1.0) };
+        let (nx, ny, nz) = if side { (nx, ny, 0.0) } else { (0.0, 0.0, outward) };
+        let normal = Normal3D::new(nx, ny, nz);
         Surface {
-            point: Point3D::new(nx * self.radius, ny * self.radius, p.z.clamp(0.0, self.height)),
+            point: Point3D::new(x, y, if side { along_side } else { end }),
             normal,
             shading_normal: normal,
-            bound: 4.0 * f64::EPSILON * self.radius,
+            bound: if side { 4.0 * f64::EPSILON * radius } else { 0.0 },
         }
     }
 

@@ -54,6 +54,12 @@ impl Passage {
         Self { near, far, entry: SIDE, exit: SIDE, misses }
     }
 
+    /// This, unless the line is outside for all its length.
+    #[inline]
+    pub(crate) fn that_meets(self) -> Option<Self> {
+        (!self.misses).then_some(self)
+    }
+
     /// Cuts off what lies below the plane z = 0.
     #[inline]
     pub(crate) fn above_base(self, ray: &Ray) -> Self {
@@ -75,7 +81,8 @@ impl Passage {
         }
         let t = missing / speed;
         // Selections and no branches: which way lines run cannot be foretold.
-        let (first, last) = if speed > 0.0 { (t, f64::INFINITY) } else { (f64::NEG_INFINITY, t) };
+        let first = if speed > 0.0 { t } else { f64::NEG_INFINITY };
+        let last = if speed < 0.0 { t } else { f64::INFINITY };
         self.entry = if first > self.near { face } else { self.entry };
         self.near = if first > self.near { first } else { self.near };
         self.exit = if last < self.far { face } else { self.exit };

@@ -1,5 +1,6 @@
 use std::ops::ControlFlow;
 
+use raysect_core::accel::{Slabs, slabs};
 use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{
     BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch, Surface,
@@ -8,7 +9,7 @@ use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
 use super::Operand;
 use super::operand::{Member, Probe};
-use super::tie::{EXAMINED, Order, TieRule, larger};
+use super::tie::{EXAMINED, TieRule, larger};
 use crate::PrimitiveError;
 
 /// What is made of two bodies A and B.
@@ -23,13 +24,17 @@ pub(super) enum Operation {
 }
 
 impl Operation {
-    #[inline]
     fn apply(self, in_a: bool, in_b: bool) -> bool {
         match self {
             Self::Union => in_a || in_b,
             Self::Intersect => in_a && in_b,
             Self::Subtract => in_a && !in_b,
         }
+    }
+
+    /// What it answers, one bit for each of the four cases: their number is 1 if in A, plus 2 if in B.
+    fn truth(self) -> u8 {
+        (0..4).filter(|case| self.apply(case & 1 != 0, case & 2 != 0)).map(|case| 1 << case).sum()
     }
 
     fn name(self) -> &'static str {
@@ -56,6 +61,8 @@ impl Operation {
 #[derive(Clone)]
 pub(super) struct Composite {
     operation: Operation,
+    /// The same as bits; see [`Operation::truth`].
+    truth: u8,
     pub(super) a: Member,
     pub(super) b: Member,
     /// Leaves of A, and of both.
@@ -66,7 +73,7 @@ pub(super) struct Composite {
     /// In its own space.
     bounds: BoundingBox3D,
     /// Boxes that a line must meet for either operand to matter, where to ask saves time.
-    tests: [Option<BoundingBox3D>; 2],
+    tests: [Option<Slabs>; 2],
     /// Off in tests that show what it is good for.
     #[cfg(test)]
     pub(super) ties: bool,
@@ -86,6 +93,7 @@ impl Composite {
         let convex = operation == Operation::Intersect && a.shape.is_convex() && b.shape.is_convex();
         let mut composite = Self {
             operation,
+            truth: operation.truth(),
             parts,
             reach: a.reach.max(b.reach),
             convex,
@@ -102,15 +110,15 @@ impl Composite {
     }
 
     /// See `tests`.
-    fn box_tests(&self) -> [Option<BoundingBox3D>; 2] {
+    fn box_tests(&self) -> [Option<Slabs>; 2] {
         let (a, b) = (&self.a, &self.b);
-        let of = |member: &Member| member.costly.then_some(member.bounds);
+        let of = |member: &Member| member.costly.then(|| slabs(&member.bounds));
         let surrounds = b.bounds.contains(a.bounds.lower) && b.bounds.contains(a.bounds.upper);
         match self.operation {
             Operation::Union => [of(a), of(b)],
             // A line through the first operand's box meets a box around it, too.
             Operation::Subtract => [of(a), of(b).filter(|_| !surrounds)],
-            Operation::Intersect => [Some(self.bounds), None],
+            Operation::Intersect => [Some(slabs(&self.bounds)), None],
         }
     }
 
@@ -176,7 +184,7 @@ impl Composite {
             self.b.crossings_within(ray, of_b, scratch, &mut both);
         }
         let (a, b) = both.split_at(first_of_b);
-        let _ = self.merge(ray, a, b, &mut emit);
+        let _ = self.merge(ray, doubt, a, b, &mut emit);
         scratch.give_back(both);
     }
 
@@ -184,59 +192,72 @@ impl Composite {
     fn merge(
         &self,
         ray: &Ray,
+        reach: f64,
         a: &[Crossing],
         b: &[Crossing],
         emit: &mut impl FnMut(Crossing) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        if b.is_empty() {
-            // Nothing to be taken away or added, or nothing in common.
+        let [Some(ends_of_a), Some(ends_of_b)] = [ends(a), ends(b)] else {
+            // Nothing to be taken away or added, or nothing in common. Only a union comes here without the first operand.
             let kept = if self.operation == Operation::Intersect { &[] } else { a };
-            return kept.iter().copied().try_for_each(emit);
-        }
-        if a.is_empty() {
-            // Only a union comes here.
+            kept.iter().copied().try_for_each(&mut *emit)?;
             return b.iter().try_for_each(|c| emit(self.as_own(c, true)));
-        }
-        let ties = TieRule::new(self, ray, a, b);
+        };
+        let farthest = larger(ends_of_a, ends_of_b);
+        let ties = TieRule::new(self, ray, reach + farthest);
         let (mut i, mut j) = (0, 0);
-        let (mut in_a, mut in_b, mut inside, mut last) = (false, false, false, f64::NEG_INFINITY);
-        while i < a.len() || j < b.len() {
-            let order = match (a.get(i), b.get(j)) {
-                (Some(x), Some(y)) => ties.judge(x, y),
-                (Some(_), None) => Order::First,
-                _ => Order::Second,
-            };
-            let of_b = matches!(order, Order::Second | Order::Together { second: true });
-            let crossing = if of_b { &b[j] } else { &a[i] };
-            if !matches!(order, Order::Second) {
-                (in_a, i) = (!in_a, i + 1);
+        // Selections and no branches: whose crossing comes next cannot be foretold.
+        let (mut state, mut inside, mut last) = (0, false, f64::NEG_INFINITY);
+        loop {
+            let (more_of_a, more_of_b) = (i < a.len(), j < b.len());
+            if !(more_of_a | more_of_b) {
+                return ControlFlow::Continue(());
             }
-            if !matches!(order, Order::First) {
-                (in_b, j) = (!in_b, j + 1);
+            let (x, y) = (&a[i.min(a.len() - 1)], &b[j.min(b.len() - 1)]);
+            let mut of_b = !more_of_a | (more_of_b & (y.distance < x.distance));
+            let (mut steps_a, mut steps_b) = (!of_b, of_b);
+            if more_of_a
+                && more_of_b
+                && let Some(second) = ties.one_event(x, y)
+            {
+                (of_b, steps_a, steps_b) = (second, true, true);
             }
-            let now = self.operation.apply(in_a, in_b);
+            i += usize::from(steps_a);
+            j += usize::from(steps_b);
+            state ^= u8::from(steps_a) | (u8::from(steps_b) << 1);
+            let now = (self.truth >> state) & 1 != 0;
             if now == inside {
                 continue;
             }
             inside = now;
+            let crossing = if of_b { y } else { x };
             // Events come in order; the crossings that speak for them may be swapped by rounding.
             last = larger(crossing.distance, last);
-            emit(Crossing { distance: last, exiting: !now, ..self.as_own(crossing, of_b) })?;
+            let own = Crossing { distance: last, exiting: !now, feature: self.own_feature(crossing, of_b) };
+            emit(own)?;
         }
-        ControlFlow::Continue(())
+    }
+
+    /// The feature of an operand as one of the composite.
+    #[inline]
+    fn own_feature(&self, crossing: &Crossing, of_b: bool) -> Feature {
+        let before = if of_b { self.parts[0] } else { 0 };
+        Feature { part: crossing.feature.part.saturating_add(before), ..crossing.feature }
     }
 
     /// A crossing of an operand as one of the composite.
     #[inline]
     fn as_own(&self, crossing: &Crossing, of_b: bool) -> Crossing {
-        if !of_b {
-            return *crossing;
-        }
-        let feature =
-            Feature { part: crossing.feature.part.saturating_add(self.parts[0]), ..crossing.feature };
-        let inverted = self.operation == Operation::Subtract;
+        let inverted = of_b && self.operation == Operation::Subtract;
+        let feature = self.own_feature(crossing, of_b);
         Crossing { feature, exiting: crossing.exiting != inverted, ..*crossing }
     }
+}
+
+/// How far the first or the last of crossings in order is, if there are any.
+#[inline]
+fn ends(crossings: &[Crossing]) -> Option<f64> {
+    Some(larger(crossings.first()?.distance.abs(), crossings.last()?.distance.abs()))
 }
 
 impl std::fmt::Debug for Composite {
@@ -333,12 +354,13 @@ impl Primitive for Composite {
         let feature = Feature { part, ..crossing.feature };
         let inverted = self.operation == Operation::Subtract;
         let exiting = crossing.exiting != inverted;
-        let surface = self.b.surface(ray, &Crossing { feature, exiting, ..*crossing });
-        if !inverted {
-            return surface;
+        let mut surface = self.b.surface(ray, &Crossing { feature, exiting, ..*crossing });
+        if inverted {
+            let turned = |n: Normal3D| Normal3D::from(-n.as_vector());
+            surface.normal = turned(surface.normal);
+            surface.shading_normal = turned(surface.shading_normal);
         }
-        let turned = |n: Normal3D| Normal3D::from(-n.as_vector());
-        Surface { normal: turned(surface.normal), shading_normal: turned(surface.shading_normal), ..surface }
+        surface
     }
 
     fn is_convex(&self) -> bool {

@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use raysect_core::accel::Slabs;
 use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{BoundingBox3D, Crossing, Interval, Primitive, Ray, Scratch, Surface};
 use raysect_math::{AffineMatrix3D, MathError, Normal3D, Point3D};
@@ -166,11 +167,13 @@ impl Member {
 
     /// The surface at a crossing of the operand, in the space of the composite.
     pub(super) fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
-        let local = self.shape.surface(&self.local(ray), crossing);
         let rounding = 16.0 * f64::EPSILON;
         if self.in_place {
-            return Surface { bound: local.bound + rounding * local.point.max_abs(), ..local };
+            let mut surface = self.shape.surface(ray, crossing);
+            surface.bound += rounding * surface.point.max_abs();
+            return surface;
         }
+        let local = self.shape.surface(&self.local(ray), crossing);
         let point = self.to_parent.transform_point(local.point);
         let upright = |n: Normal3D| self.to_local.transform_normal_with_inverse(n).normalise_unchecked();
         let normal = upright(local.normal);
@@ -190,13 +193,17 @@ fn row_sum(m: &AffineMatrix3D, row: usize) -> f64 {
 pub(super) struct Probe {
     origin: [f64; 3],
     inverse: [f64; 3],
+    /// For each axis, true if the line meets the upper face first.
+    backward: [bool; 3],
 }
 
 impl Probe {
     #[inline]
     pub(super) fn new(ray: &Ray) -> Self {
         let d = ray.direction;
-        Self { origin: ray.origin.to_array(), inverse: [1.0 / d.x, 1.0 / d.y, 1.0 / d.z] }
+        let inverse = [1.0 / d.x, 1.0 / d.y, 1.0 / d.z];
+        let backward = [inverse[0] < 0.0, inverse[1] < 0.0, inverse[2] < 0.0];
+        Self { origin: ray.origin.to_array(), inverse, backward }
     }
 
     /// A length [m], or the greatest coordinate of the origin if that is more, as a distance along the line, at least.
@@ -211,14 +218,12 @@ impl Probe {
     /// True if the line meets the box at a distance between `first` and `last`. Comparisons with a NaN, of a line in the
     /// plane of a face, are false, which drops it.
     #[inline]
-    pub(super) fn meets(&self, bounds: &BoundingBox3D, first: f64, last: f64) -> bool {
-        let (low, high) = (bounds.lower.to_array(), bounds.upper.to_array());
+    pub(super) fn meets(&self, bounds: &Slabs, first: f64, last: f64) -> bool {
         let (mut near, mut far) = (first, last);
         for axis in 0..3 {
-            let (o, inverse) = (self.origin[axis], self.inverse[axis]);
-            let backward = inverse < 0.0;
-            let a = (if backward { high[axis] } else { low[axis] } - o) * inverse;
-            let b = (if backward { low[axis] } else { high[axis] } - o) * inverse;
+            let (o, inverse, backward) = (self.origin[axis], self.inverse[axis], self.backward[axis]);
+            let a = (bounds[usize::from(backward)][axis] - o) * inverse;
+            let b = (bounds[usize::from(!backward)][axis] - o) * inverse;
             near = if a > near { a } else { near };
             far = if b < far { b } else { far };
         }

@@ -15,16 +15,6 @@ const GRAZING: f64 = 16_777_216.0;
 /// Crossings that are farther apart than this part of the lengths that enter are told apart by their distances alone.
 pub(super) const EXAMINED: f64 = 4.0 * GRAZING * ROUNDING;
 
-/// Which of two crossings comes first, one of each operand.
-pub(super) enum Order {
-    First,
-    Second,
-    /// They are one event, for which the first or the second speaks.
-    Together {
-        second: bool,
-    },
-}
-
 /// Tells crossings apart, or not.
 pub(super) struct TieRule<'a> {
     composite: &'a Composite,
@@ -34,31 +24,21 @@ pub(super) struct TieRule<'a> {
 }
 
 impl<'a> TieRule<'a> {
-    /// `a` and `b` are not empty, and in order.
+    /// `lengths` is how far what enters reaches, in units of the direction's length.
     #[inline]
-    pub(super) fn new(composite: &'a Composite, ray: &'a Ray, a: &[Crossing], b: &[Crossing]) -> Self {
-        let ends = [a.first(), a.last(), b.first(), b.last()];
-        let farthest = ends.into_iter().flatten().fold(0.0, |far, c| larger(far, c.distance.abs()));
-        // The direction is at least as long as its greatest component.
-        let d = ray.direction;
-        let speed = larger(larger(d.x.abs(), d.y.abs()), d.z.abs());
-        let lengths = larger(ray.origin.max_abs(), composite.reach) / speed + farthest;
+    pub(super) fn new(composite: &'a Composite, ray: &'a Ray, lengths: f64) -> Self {
         Self { composite, ray, near: EXAMINED * lengths }
     }
 
+    /// If two crossings, one of each operand, are one event: true if the second speaks for it.
     #[inline]
-    pub(super) fn judge(&self, a: &Crossing, b: &Crossing) -> Order {
-        if (a.distance - b.distance).abs() <= self.near
-            && let Some(together) = self.together(a, b)
-        {
-            return together;
-        }
-        if a.distance <= b.distance { Order::First } else { Order::Second }
+    pub(super) fn one_event(&self, a: &Crossing, b: &Crossing) -> Option<bool> {
+        if (a.distance - b.distance).abs() <= self.near { self.examined(a, b) } else { None }
     }
 
     /// With the slopes of both surfaces. The one that the ray meets more steeply knows better where it is.
     #[cold]
-    fn together(&self, a: &Crossing, b: &Crossing) -> Option<Order> {
+    fn examined(&self, a: &Crossing, b: &Crossing) -> Option<bool> {
         #[cfg(test)]
         if !self.composite.ties {
             return None;
@@ -76,7 +56,7 @@ impl<'a> TieRule<'a> {
         let (slope_a, doubt_a) = slope_and_doubt(&self.composite.a, a);
         let (slope_b, doubt_b) = slope_and_doubt(&self.composite.b, b);
         let doubt = doubt_a + doubt_b;
-        (gap <= doubt).then_some(Order::Together { second: slope_b > slope_a })
+        (gap <= doubt).then_some(slope_b > slope_a)
     }
 }
 

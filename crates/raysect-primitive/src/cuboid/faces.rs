@@ -32,7 +32,7 @@ impl Faces {
     /// Of a cuboid seen from a point.
     #[inline]
     pub(super) fn of(cuboid: &Cuboid, from: Point3D) -> Self {
-        let (at, low, high) = (from.to_array(), cuboid.lower.to_array(), cuboid.upper.to_array());
+        let (at, low, high) = (from.to_array(), cuboid.lower().to_array(), cuboid.upper().to_array());
         let sides: [(bool, bool); 3] = std::array::from_fn(|a| (at[a] > high[a], at[a] < low[a]));
         // To the nearest point of the cuboid.
         let gap: [f64; 3] = std::array::from_fn(|a| (low[a] - at[a]).max(at[a] - high[a]).max(0.0));
@@ -47,7 +47,7 @@ impl Faces {
             let faces = sides.map(|(upper, lower)| (if upper || lower { 1.0 } else { 0.0 }, upper));
             return Self::Far { faces, total: 1.0 };
         }
-        let (low, high) = (cuboid.lower.to_array(), cuboid.upper.to_array());
+        let (low, high) = (cuboid.lower().to_array(), cuboid.upper().to_array());
         let mut faces = [(0.0, false); 3];
         for (axis, (upper, lower)) in sides.into_iter().enumerate() {
             if upper || lower {
@@ -63,16 +63,16 @@ impl Faces {
     /// None where a solid angle is beyond what the sampler can tell: in the plane of a face, to rounding.
     #[inline(never)]
     fn near(cuboid: &Cuboid, from: Point3D, sides: [(bool, bool); 3]) -> Option<Self> {
-        let extent = cuboid.lower.vector_to(cuboid.upper).to_array();
+        let extent = cuboid.lower().vector_to(cuboid.upper()).to_array();
         let mut faces = [None; 3];
         let mut total = 0.0;
         for (axis, (upper, lower)) in sides.into_iter().enumerate() {
             if !(upper || lower) || cuboid.areas[axis] == 0.0 {
                 continue;
             }
-            let mut corner = cuboid.lower.to_array();
+            let mut corner = cuboid.lower().to_array();
             if upper {
-                corner[axis] = cuboid.upper[axis];
+                corner[axis] = cuboid.upper()[axis];
             }
             let edges = [(axis + 1) % 3, (axis + 2) % 3].map(|along| {
                 let mut edge = [0.0; 3];
@@ -96,7 +96,7 @@ impl Faces {
             rest <= 0.0
         });
         let axis = chosen.or_else(|| (0..3).rfind(|&a| weights[a] > 0.0))?;
-        let (low, high) = (cuboid.lower.to_array(), cuboid.upper.to_array());
+        let (low, high) = (cuboid.lower().to_array(), cuboid.upper().to_array());
         let (upper, mut point) = match self {
             Self::Far { faces, .. } => {
                 let mut point = [0.0; 3];
