@@ -143,15 +143,22 @@ impl Axis {
     /// Knots in other parts need not be looked at; where the knots are about even there is one to look at.
     #[inline]
     pub(super) fn cell(&self, x: f64) -> (usize, [f64; 2]) {
-        let part = self.part(x);
-        if self.even {
-            let ends = self.cells[part];
-            if ends[0] <= x && x < ends[1] {
-                return (part, ends);
-            }
+        self.even_cell(x).unwrap_or_else(|| {
+            let cell = self.search(self.part(x), x);
+            (cell, self.cells[cell])
+        })
+    }
+
+    /// The same where the knots are about even and `x` lies above the lower knot of its part and below the upper one, so
+    /// that it is not outside. None says nothing.
+    #[inline]
+    pub(super) fn even_cell(&self, x: f64) -> Option<(usize, [f64; 2])> {
+        if !self.even {
+            return None;
         }
-        let cell = self.search(part, x);
-        (cell, self.cells[cell])
+        let part = self.part(x);
+        let ends = self.cells[part];
+        (ends[0] <= x && x < ends[1]).then_some((part, ends))
     }
 
     /// The cell that holds `x`, of those that have to do with a part.

@@ -52,10 +52,11 @@ impl GridAxis {
     /// Where a place lies in which cell.
     #[inline(always)]
     fn locate(&self, x: f64, order: u32) -> Located {
-        if !self.axis.holds(x) {
-            return self.locate_outside(x, order);
-        }
-        let (cell, [low, high]) = self.axis.cell(x);
+        let (cell, [low, high]) = match self.axis.even_cell(x) {
+            Some(found) => found,
+            None if self.axis.holds(x) => self.axis.cell(x),
+            None => return self.locate_outside(x, order),
+        };
         let width = high - low;
         let scale = if order == 0 { 1.0 } else { width.powi(order as i32).recip() };
         Located { cell, width, t: (x - low) / width, scale, beyond: false }
