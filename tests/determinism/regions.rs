@@ -54,8 +54,9 @@ fn a_part_is_a_part_of_the_whole<S: Sensor + Clone>(name: &str, observer: Observ
         assert_eq!((report.pixels, report.samples), (count, 70 * count as u64), "{name}");
         for (pixel, seen) in seen.into_iter().enumerate() {
             assert_eq!(found.is_masked(pixel), !seen, "{name}, pixel {pixel}");
-            let expected = if seen { own_bits(&whole, pixel) } else { own_bits(&found, pixel) };
-            assert_eq!(own_bits(&found, pixel), expected, "{name}, pixel {pixel}");
+            if seen {
+                assert_eq!(own_bits(&found, pixel), own_bits(&whole, pixel), "{name}, pixel {pixel}");
+            }
             assert_eq!(found.samples(pixel), if seen { 70 } else { 0 }, "{name}, pixel {pixel}");
         }
     }

@@ -1,8 +1,7 @@
 //! Meshes as lamps: sampled by the areas of their triangles, found as often as lamps of other shapes.
 
 use raysect::core::{
-    BoundingBox3D, Crossing, Departure, Feature, Interval, Node, Primitive, Ray, Scratch, Surface,
-    SurfaceSample, SurfaceSampling,
+    BoundingBox3D, Crossing, Feature, Node, Primitive, Ray, Scratch, Surface, SurfaceSample, SurfaceSampling,
 };
 use raysect::math::{AffineMatrix3D, Point3D, Vector3D, translate};
 use raysect::optical::LightSampling::{BoundingSpheres, Lights, Off};
@@ -183,12 +182,6 @@ impl Primitive for Equal {
     }
     fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
         self.0.crossings(ray, scratch, out);
-    }
-    fn hit(&self, ray: &Ray, within: Interval, scratch: &mut Scratch) -> Option<Crossing> {
-        self.0.hit(ray, within, scratch)
-    }
-    fn hit_after(&self, ray: &Ray, left: &Departure, max: f64, scratch: &mut Scratch) -> Option<Crossing> {
-        self.0.hit_after(ray, left, max, scratch)
     }
     fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
         self.0.surface(ray, crossing)

@@ -9,6 +9,7 @@ use raysect_core::{
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
 use crate::PrimitiveError;
+use crate::select::{larger, smaller};
 
 /// A box with its edges along the axes.
 ///
@@ -64,18 +65,6 @@ struct Passage {
 #[inline]
 fn face_number(axis: usize, upper: bool) -> u32 {
     2 * axis as u32 + u32::from(upper)
-}
-
-/// The larger of two numbers, the first among equals; in one instruction, since neither is a NaN.
-#[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
-}
-
-/// The smaller of two numbers, the first among equals.
-#[inline(always)]
-fn smaller(a: f64, b: f64) -> f64 {
-    if b < a { b } else { a }
 }
 
 impl Cuboid {

@@ -31,6 +31,7 @@ pub mod mesh;
 mod parabola;
 mod register;
 mod revolution;
+mod select;
 mod sphere;
 mod torus;
 

@@ -109,19 +109,14 @@ impl Parabola {
     #[inline]
     fn passage(&self, ray: &Ray) -> Passage {
         let near = NearTip::new(ray, self.height);
-        Self::above_base(self.side(&near), &near)
+        near.above_base(self.side(&near))
     }
 
     /// As [`passage`](Self::passage), unless the line is outside of the side for all its length.
     #[inline]
     fn passage_that_meets(&self, ray: &Ray) -> Option<Passage> {
         let near = NearTip::new(ray, self.height);
-        self.side(&near).that_meets().map(|side| Self::above_base(side, &near))
-    }
-
-    #[inline]
-    fn above_base(side: Passage, near: &NearTip) -> Passage {
-        side.above_base(&near.ray).counted_from(near.moved)
+        Some(near.above_base(self.side(&near).that_meets()?))
     }
 
     /// Within the endless paraboloid ρ² ≤ p w, with w counted downwards from the vertex.

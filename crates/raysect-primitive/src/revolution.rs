@@ -189,6 +189,12 @@ impl NearTip {
             Self { ray: *ray, depth, moved: 0.0 }
         }
     }
+
+    /// What of a passage through the side lies above the plane z = 0, counted from the origin as it was given.
+    #[inline]
+    pub(crate) fn above_base(&self, side: Passage) -> Passage {
+        side.above_base(&self.ray).counted_from(self.moved)
+    }
 }
 
 /// A point moved within a distance of the z axis, if it lies outside.

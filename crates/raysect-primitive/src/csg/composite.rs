@@ -9,8 +9,9 @@ use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
 use super::Operand;
 use super::operand::{Member, Probe};
-use super::tie::{EXAMINED, TieRule, larger};
+use super::tie::{EXAMINED, TieRule};
 use crate::PrimitiveError;
+use crate::select::larger;
 
 /// What is made of two bodies A and B.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

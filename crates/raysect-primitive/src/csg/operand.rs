@@ -5,8 +5,8 @@ use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{BoundingBox3D, Crossing, Interval, Primitive, Ray, Scratch, Surface};
 use raysect_math::{AffineMatrix3D, MathError, Normal3D, Point3D};
 
-use super::tie::larger;
 use crate::PrimitiveError;
+use crate::select::{larger, smaller};
 
 /// A shape and its place in the space of the composite that is made of it.
 ///
@@ -209,7 +209,6 @@ impl Probe {
     /// A length [m], or the greatest coordinate of the origin if that is more, as a distance along the line, at least.
     #[inline]
     pub(super) fn distance_of(&self, length: f64) -> f64 {
-        let smaller = |a: f64, b: f64| if a < b { a } else { b };
         let [x, y, z] = self.inverse.map(f64::abs);
         let [a, b, c] = self.origin.map(f64::abs);
         larger(larger(larger(a, b), c), length) * smaller(smaller(x, y), z)

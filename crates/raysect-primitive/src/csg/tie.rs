@@ -59,9 +59,3 @@ impl<'a> TieRule<'a> {
         (gap <= doubt).then_some(slope_b > slope_a)
     }
 }
-
-/// The larger of two numbers; in one instruction, since neither is a NaN.
-#[inline]
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}

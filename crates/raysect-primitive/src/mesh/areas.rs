@@ -110,9 +110,10 @@ impl Areas {
     }
 
     /// A triangle and the barycentric coordinates of the second and the third corner of a point in it, from three
-    /// uniforms in (0, 1). Triangles without area are never drawn.
-    pub(super) fn draw(&self, from: Point3D, sheet: bool, u: [f64; 3]) -> Option<(u32, [f64; 2])> {
-        let mut share = u[0] * self.seen_from(from, sheet);
+    /// uniforms in (0, 1), and the area that it is drawn from [m²]. Triangles without area are never drawn.
+    pub(super) fn draw(&self, from: Point3D, sheet: bool, u: [f64; 3]) -> Option<(u32, [f64; 2], f64)> {
+        let area = self.seen_from(from, sheet);
+        let mut share = u[0] * area;
         let mut chosen = None;
         for group in self.groups.iter().filter(|g| sheet || self.is_seen(g, from)) {
             chosen = Some((group, share));
@@ -125,7 +126,7 @@ impl Areas {
         let sums = &self.sums[group.places.clone()];
         let place = sums.partition_point(|&sum| sum < share).min(sums.len() - 1);
         let [_, v, w] = triangle::sample([u[1], u[2]]);
-        Some((self.order[group.places.start + place], [v, w]))
+        Some((self.order[group.places.start + place], [v, w], area))
     }
 
     pub(super) fn bytes(&self) -> usize {

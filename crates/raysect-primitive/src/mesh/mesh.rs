@@ -120,11 +120,16 @@ impl Mesh {
         self.0.areas.get_or_init(|| Areas::new(&self.0.data))
     }
 
-    /// True if a triangle can be seen from a point: a closed mesh from outside alone, a sheet from both sides.
-    fn faces(&self, triangle: u32, from: Point3D) -> bool {
+    /// Density of points of a triangle that are drawn from an area [1/m²]; 0 for one that cannot be seen: a closed mesh is
+    /// seen from outside alone, a sheet from both sides.
+    fn density(&self, triangle: u32, from: Point3D, area: f64) -> f64 {
         let [corner, ..] = self.0.data.corners(triangle as usize);
         let height = |normal: Normal3D| normal.dot(corner.vector_to(from));
-        self.0.data.face_normal(triangle as usize).is_some_and(|n| !self.0.closed || height(n) > 0.0)
+        let normal = self.0.data.face_normal(triangle as usize);
+        let seen = normal.is_some_and(|n| !self.0.closed || height(n) > 0.0);
+        // Of so small a mesh the area is no number.
+        let density = 1.0 / area;
+        if seen && density.is_finite() { density } else { 0.0 }
     }
 
     /// Walks through the tree with a test made for the kind of triangles that are stored.
@@ -366,22 +371,17 @@ impl Primitive for Mesh {
 
     /// Uniform over all of the area that may face `from`; what faces away nevertheless gives nothing.
     fn sample_surface(&self, from: Point3D, u: [f64; 3]) -> Option<SurfaceSample> {
-        let (face, uv) = self.areas().draw(from, !self.0.closed, u)?;
+        let (face, uv, area) = self.areas().draw(from, !self.0.closed, u)?;
         let feature = Feature { face, uv, ..Feature::default() };
         let point = self.point(&feature);
-        let density = self.surface_density(from, point, feature);
+        let density = self.density(face, from, area);
         let normal = self.0.data.face_normal(face as usize)?;
         let shading_normal = self.shading_normal(&feature);
         (density > 0.0).then_some(SurfaceSample { point, normal, shading_normal, feature, density })
     }
 
     fn surface_density(&self, from: Point3D, _: Point3D, feature: Feature) -> f64 {
-        if !self.faces(feature.face, from) {
-            return 0.0;
-        }
-        // Of so small a mesh the area is no number.
-        let density = 1.0 / self.areas().seen_from(from, !self.0.closed);
-        if density.is_finite() { density } else { 0.0 }
+        self.density(feature.face, from, self.areas().seen_from(from, !self.0.closed))
     }
 
     fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {

@@ -2,6 +2,8 @@
 
 use raysect_core::Ray;
 
+use crate::select::{larger, smaller};
+
 /// A ray turned into the third axis of a space of its own (S. Woop, C. Benthin, I. Wald, *Watertight Ray/Triangle
 /// Intersection*, JCGT 2(1), 2013).
 ///
@@ -81,16 +83,6 @@ impl ShearedRay {
             from_behind: !sides[0],
         })
     }
-}
-
-#[inline(always)]
-pub(super) fn smaller(a: f64, b: f64) -> f64 {
-    if b < a { b } else { a }
-}
-
-#[inline(always)]
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
 }
 
 /// Twice the area of the triangle of the ray and an edge. Its sign is never wrong, but it may be 0 where the area is

@@ -1,7 +1,7 @@
 use super::super::contract::{Function, finite};
 use super::axis::{Axis, check_values};
 use super::grid_axis::GridAxis;
-use super::nodes::{Node2, cubic2, nodes2};
+use super::nodes::{Node2, Table, cubic2, nodes2};
 use super::{Extrapolation, Interpolation};
 use crate::MathError;
 
@@ -28,14 +28,7 @@ use crate::MathError;
 pub struct Interpolator2DArray {
     x: GridAxis,
     y: GridAxis,
-    table: Table,
-}
-
-/// What is known at the knots.
-#[derive(Debug, Clone, PartialEq)]
-enum Table {
-    Linear(Vec<f64>),
-    Cubic(Vec<Node2>),
+    table: Table<Node2>,
 }
 
 impl Interpolator2DArray {

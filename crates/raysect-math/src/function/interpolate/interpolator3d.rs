@@ -1,7 +1,7 @@
 use super::super::contract::{Function, finite};
 use super::axis::{Axis, check_values};
 use super::grid_axis::GridAxis;
-use super::nodes::{Node3, cubic3, nodes3};
+use super::nodes::{Node3, Table, cubic3, nodes3};
 use super::{Extrapolation, Interpolation};
 use crate::MathError;
 
@@ -25,14 +25,7 @@ pub struct Interpolator3DArray {
     x: GridAxis,
     y: GridAxis,
     z: GridAxis,
-    table: Table,
-}
-
-/// What is known at the knots.
-#[derive(Debug, Clone, PartialEq)]
-enum Table {
-    Linear(Vec<f64>),
-    Cubic(Vec<Node3>),
+    table: Table<Node3>,
 }
 
 impl Interpolator3DArray {

@@ -13,6 +13,15 @@ pub(super) type Node2 = [f64; 4];
 /// [`Node2`], and then the derivatives along z of these four.
 pub(super) type Node3 = [f64; 8];
 
+/// What is known at the knots of a grid.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Table<Node> {
+    /// The values, for linear pieces.
+    Linear(Vec<f64>),
+    /// Values and derivatives, for cubic ones.
+    Cubic(Vec<Node>),
+}
+
 /// How much the rises to a knot from the one before and from it to the one after count for a slope there.
 type Weights = [f64; 2];
 
