@@ -3,6 +3,7 @@
 mod check;
 mod controls;
 mod depth;
+mod dispersion;
 mod furnace;
 mod glass;
 mod irradiance;

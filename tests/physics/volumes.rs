@@ -1,16 +1,13 @@
-//! Volumes: line integrals through structure, scattering, and dispersion.
+//! Volumes: line integrals through structure, and scattering.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use raysect::core::Node;
 use raysect::math::{Point3D, Rng, Statistics, StreamKey, Vector3D, translate};
 use raysect::optical::{
-    Add, Blend, Context, Dispersion, HenyeyGreenstein, InhomogeneousVolumeEmitter, LightSampling, Optics,
-    Path, PathSettings, ProfileVolume, Ray, Rayleigh, Sellmeier, Slicing, UniformVolume, VolumeTransform,
-    WithMaterial, World,
+    Add, Blend, Context, HenyeyGreenstein, InhomogeneousVolumeEmitter, LightSampling, Path, PathSettings,
+    ProfileVolume, Rayleigh, Slicing, UniformVolume, VolumeTransform, WithMaterial, World,
 };
-use raysect::primitive::{Cuboid, Sphere};
 
 use crate::check::{Demand, Probe, accept};
 use crate::scenes::{ball, cuboid, dome, lamp, world};
@@ -126,53 +123,6 @@ fn single_scattering_of_a_thin_ball_has_its_closed_form() {
     let z = (found.radiance.mean() / expected - 1.0) / (found.radiance.error() / expected);
     assert!(found.radiance.error() < 0.02 * expected, "{}", found.radiance);
     assert!(z.abs() < 4.0 + 0.002 * expected / found.radiance.error(), "{} {expected}", found.radiance);
-}
-
-/// A prism of heavy flint before a lamp behind a slit, seen from the other side.
-fn prism_scene() -> World {
-    let flint = Sellmeier::new([1.73759695, 0.313747346, 1.89878101], [0.013188707, 0.0623068142, 155.23629]);
-    let glass = raysect::optical::Dielectric::new(flint.unwrap(), 1.0).unwrap();
-    let node: Node<Optics> = Sphere::new(1.0).unwrap().material(glass);
-    let lamp = Cuboid::new(Point3D::new(-0.5, -1.4, 3.0), Point3D::new(0.5, -1.016, 3.0)).unwrap();
-    world([node, lamp.material(raysect::optical::UniformSurfaceEmitter::new(1.0, 1.0))])
-}
-
-#[test]
-fn a_wide_bin_is_the_average_of_narrow_ones_where_wavelengths_are_sampled() {
-    let world = prism_scene();
-    let (origin, direction) = (Point3D::new(0.0, 0.5, -5.0), Vector3D::Z);
-    let ray = Ray::new(origin, direction).spectrum(380.0, 740.0, 1);
-    let settings = |d| PathSettings::default().dispersion(d);
-    let sampled = ray.clone().settings(settings(Dispersion::Sampled)).sample(&world, 20_000).unwrap();
-    let mean = ray.clone().settings(settings(Dispersion::Mean)).sample(&world, 2000).unwrap();
-    let (mut fine, mut variance) = (0.0, 0.0);
-    for i in 0..360 {
-        let (low, high) = (380.0 + f64::from(i), 381.0 + f64::from(i));
-        let narrow = ray.clone().spectrum(low, high, 1).settings(settings(Dispersion::Mean)).seed(i as u64);
-        let found = narrow.sample(&world, 200).unwrap();
-        fine += found.mean.samples()[0] / 360.0;
-        variance += (found.error[0] / 360.0).powi(2);
-    }
-    let z = |found: &raysect::optical::SampledSpectrum| {
-        (found.mean.samples()[0] - fine) / (found.error[0].powi(2) + variance).sqrt()
-    };
-    assert!(sampled.error[0] < 0.02 * fine, "{sampled:?}");
-    assert!(z(&sampled).abs() < 4.0, "{} {fine}", sampled.mean.samples()[0]);
-    assert!(z(&mean).abs() > 10.0, "{} {fine}", mean.mean.samples()[0]);
-}
-
-#[test]
-fn bins_that_are_dispersed_together_are_right_each() {
-    let world = prism_scene();
-    let ray = Ray::new(Point3D::new(0.0, 0.5, -5.0), Vector3D::Z).spectrum(380.0, 740.0, 6);
-    let together = ray.sample(&world, 60_000).unwrap();
-    for bin in 0..6 {
-        let (low, high) = (380.0 + 60.0 * bin as f64, 440.0 + 60.0 * bin as f64);
-        let alone = ray.clone().spectrum(low, high, 1).seed(9).sample(&world, 10_000).unwrap();
-        let (a, b) = (together.mean.samples()[bin], alone.mean.samples()[0]);
-        let error = together.error[bin].hypot(alone.error[0]);
-        assert!((a - b).abs() <= 4.0 * error, "bin {bin}: {a} and {b} ± {error}");
-    }
 }
 
 /// A sheet across the z axis of an emission of 1 in 0.4 … 0.6 m.

@@ -100,7 +100,8 @@ fn dispersion(known: &Illumination, model: Dispersion, bins: usize, slices: usiz
         return "none: nothing refracts by wavelength, so one ray for all bins is exact".to_owned();
     }
     if model == Dispersion::Sampled {
-        return "a wavelength is drawn in every bin; a path keeps one bin where it is dispersed".to_owned();
+        return "a wavelength is drawn in every bin; a path keeps one bin where it meets smooth glass"
+            .to_owned();
     }
     let all = format!(
         "the mean index of each of {slices} slices of {bins} bins; inside a slice it is not modelled"

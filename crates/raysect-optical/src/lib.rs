@@ -101,7 +101,7 @@ mod world;
 pub use error::OpticalError;
 pub use material::{
     AbsorbingSurface, Add, AnisotropicSurfaceEmitter, Blend, Bsdf, Checkerboard, Coefficients, Conductor,
-    Context, DebugLight, Dielectric, Facts, FresnelLaw, HenyeyGreenstein, HomogeneousVolumeEmitter,
+    Context, DebugLight, Dielectric, Facts, FresnelLaw, HenyeyGreenstein, HomogeneousVolumeEmitter, IndexUse,
     InhomogeneousVolumeEmitter, Lambert, Masking, Material, Medium, MediumPoint, NullMaterial,
     PerfectReflectingSurface, PhaseFunction, ProfileVolume, Rayleigh, Refraction, RoughConductor,
     RoughDielectric, Roughen, Scatter, Structure, SurfaceHit, UniformSurfaceEmitter, UniformVolume,

@@ -12,7 +12,7 @@ pub(crate) use light::{light_density, sample_lights};
 pub use targets::Targets;
 
 use crate::material::scatters;
-use crate::{Facts, Medium, Optics, Structure};
+use crate::{Facts, IndexUse, Medium, Optics, Structure};
 
 /// What the integrator asks of an instance at every hit.
 #[derive(Debug, Clone, Copy)]
@@ -27,6 +27,8 @@ pub struct InstanceFacts {
     pub structured: bool,
     /// True if what fills the volume scatters.
     pub scatters: bool,
+    /// What the surface does with the refractive indices on its sides.
+    pub index_use: IndexUse,
     /// Number among the lights, if the surface is sampled as one.
     pub light: Option<u32>,
 }
@@ -88,6 +90,7 @@ impl Illumination {
                 emits: known.emits,
                 transparent: known.transparent,
                 has_medium: medium.is_some(),
+                index_use: known.index_use,
                 light: sampled.then(|| lights.len() as u32 - 1),
             });
         }

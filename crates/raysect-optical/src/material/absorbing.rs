@@ -13,7 +13,7 @@ impl Material for AbsorbingSurface {
     }
 
     fn facts(&self) -> Facts {
-        Facts { absorbs: true, ..Facts::named("AbsorbingSurface") }
+        Facts { absorbs: true, ..Facts::named("AbsorbingSurface").without_index() }
     }
 
     fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {

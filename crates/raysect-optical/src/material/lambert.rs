@@ -4,7 +4,7 @@ use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_math::sampling::{hemisphere, uniforms};
 use raysect_math::{Rng, Vector3D};
 
-use super::{Bsdf, Context, Material, Scatter, SurfaceHit};
+use super::{Bsdf, Context, Facts, Material, Scatter, SurfaceHit};
 use crate::{Path, SpectralTable};
 
 /// An ideal diffuse reflector, on both sides: f = ρ/π (J. H. Lambert, *Photometria*, 1760).
@@ -55,6 +55,10 @@ impl Bsdf for Lambert {
 impl Material for Lambert {
     fn surface(&self, hit: &SurfaceHit, path: &mut Path<'_>) -> Scatter {
         path.scatter(self, hit)
+    }
+
+    fn facts(&self) -> Facts {
+        Facts::named("Lambert").without_index()
     }
 
     fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {

@@ -71,6 +71,20 @@ pub enum Scatter {
     },
 }
 
+/// What a surface does with the refractive indices on its sides. It matters where they differ from bin to bin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum IndexUse {
+    /// It may read the one pair that [`Path::context`] or [`Material::emit`] gives. A path that comes to it keeps one bin,
+    /// so that the pair is that of its wavelength: right for every material.
+    #[default]
+    One,
+    /// It is a [`Bsdf`] that reads the pair it is given, and answers with [`Path::scatter`]: it is asked for each bin with
+    /// the indices of that bin, and paths carry all bins on. What it emits does not depend on the indices.
+    EachBin,
+    /// It reads none.
+    None,
+}
+
 /// What a scene wants to know about a material before any ray is traced.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Facts {
@@ -86,6 +100,8 @@ pub struct Facts {
     pub disperses: bool,
     /// True if no path ever goes on from the surface: it is black, though it may emit.
     pub absorbs: bool,
+    /// What the surface does with the refractive indices on its sides.
+    pub index_use: IndexUse,
 }
 
 impl Facts {
@@ -98,12 +114,18 @@ impl Facts {
             transparent: false,
             disperses: false,
             absorbs: false,
+            index_use: IndexUse::One,
         }
     }
 
     /// The facts of a surface that emits and reflects nothing.
     pub fn emitter(name: impl Into<String>) -> Self {
         Self { emits: true, absorbs: true, ..Self::named(name) }
+    }
+
+    /// The same of a surface that reads no refractive index.
+    pub(crate) fn without_index(self) -> Self {
+        Self { index_use: IndexUse::None, ..self }
     }
 }
 

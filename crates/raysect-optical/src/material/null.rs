@@ -14,7 +14,7 @@ impl Material for NullMaterial {
     }
 
     fn facts(&self) -> Facts {
-        Facts { transparent: true, ..Facts::named(short_name(std::any::type_name::<Self>())) }
+        Facts { transparent: true, ..Facts::named(short_name(std::any::type_name::<Self>())).without_index() }
     }
 
     fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {

@@ -3,7 +3,8 @@
 use raysect_core::{Leaving, Ray, SurfacePoint};
 
 use super::Path;
-use crate::{Medium, Refraction, SpectralTable, SurfaceHit};
+use super::dispersion::Side;
+use crate::{Medium, Refraction, SurfaceHit};
 
 /// Instances whose volumes overlap at one place.
 const CAPACITY: usize = 16;
@@ -76,19 +77,6 @@ impl Coincident {
     }
 }
 
-/// The refractive indices on both sides of a surface, as functions of the wavelength.
-#[derive(Debug, Clone, Copy)]
-struct Interface<'a> {
-    near: &'a SpectralTable,
-    far: &'a SpectralTable,
-}
-
-impl Interface<'_> {
-    fn disperses(&self) -> bool {
-        !(self.near.function().is_constant() && self.far.function().is_constant())
-    }
-}
-
 impl<'a> Path<'a> {
     /// Finds the media that a path begins in: those whose surface it meets next from the inside. On a surface this
     /// is what the direction says, and it agrees with the crossings to come, whatever rounding makes of the origin.
@@ -136,7 +124,7 @@ impl<'a> Path<'a> {
         media: &MediaList,
         surface: &SurfacePoint,
         others: &Coincident,
-    ) -> Option<Interface<'a>> {
+    ) -> Option<(Side<'a>, Side<'a>)> {
         let own = self.medium(surface.instance).and_then(|m| m.refraction())?;
         // What a surface says of itself is believed, whatever the list holds.
         let (mut before, mut behind) = (*media, *media);
@@ -156,7 +144,7 @@ impl<'a> Path<'a> {
         }
         let index =
             |medium: Option<(u32, &'a Refraction)>| medium.map_or(&own.external_index, |(_, r)| &r.index);
-        Some(Interface { near: index(near), far: index(far) })
+        Some((Some(index(near)), Some(index(far))))
     }
 
     /// The refracting surfaces of other solids that coincide with a surface, in the way of a path that goes straight
@@ -198,18 +186,16 @@ impl<'a> Path<'a> {
             return true;
         }
         self.coincident = Coincident::default();
-        if !compiled.facts[at.surface.instance as usize].has_medium || !self.refracts(at.surface.instance) {
-            let here = self.index_within(&self.media);
-            self.indices = (here, here);
+        let facts = &compiled.facts[at.surface.instance as usize];
+        if !facts.has_medium || !self.refracts(at.surface.instance) {
+            let here = self.side_within(&self.media);
+            self.note_indices(here, here, facts.index_use);
             return true;
         }
         let others = if compiled.refracting > 1 { self.coincident(at) } else { Coincident::default() };
         match self.interface(&self.media, &at.surface, &others) {
-            Some(interface) => {
-                if self.disperses && self.kept.is_none() && interface.disperses() {
-                    self.keep_one_bin();
-                }
-                self.indices = (self.index(interface.near), self.index(interface.far));
+            Some((near, far)) => {
+                self.note_indices(near, far, facts.index_use);
                 self.coincident = others;
                 true
             }
@@ -218,23 +204,22 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// The refractive index of what counts among the media of a list.
-    fn index_within(&self, media: &MediaList) -> f64 {
-        self.refracting(media).map_or(1.0, |(_, r)| self.index(&r.index))
+    /// What counts among the media of a list.
+    fn side_within(&self, media: &MediaList) -> Side<'a> {
+        self.refracting(media).map(|(_, r)| &r.index)
     }
 
-    /// The indices before and behind the surface of a light in given media, as a path would find them there; none if
+    /// What refracts before and behind the surface of a light in given media, as a path would find it there; none if
     /// another medium hides it.
-    pub(super) fn indices_at(&self, media: &MediaList, surface: &SurfacePoint) -> Option<(f64, f64)> {
+    pub(super) fn sides(&self, media: &MediaList, surface: &SurfacePoint) -> Option<(Side<'a>, Side<'a>)> {
         if !self.scene.compiled.any_medium {
-            return Some((1.0, 1.0));
+            return Some((None, None));
         }
         if !self.refracts(surface.instance) {
-            let here = self.index_within(media);
+            let here = self.side_within(media);
             return Some((here, here));
         }
-        let interface = self.interface(media, surface, &Coincident::default())?;
-        Some((self.index(interface.near), self.index(interface.far)))
+        self.interface(media, surface, &Coincident::default())
     }
 
     /// Follows the path through a surface and those that coincide with it, into or out of what lies behind.

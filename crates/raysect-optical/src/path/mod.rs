@@ -13,6 +13,7 @@ use raysect_core::{Leaving, Ray, Scratch};
 use raysect_math::{Point3D, Rng, Vector3D};
 
 pub use dispersion::Dispersion;
+use dispersion::Wavelengths;
 pub use ledger::{LEDGER_NUMBERS, Ledger};
 use line::LineRoom;
 use log::PathLog;
@@ -69,9 +70,7 @@ pub struct Path<'a> {
     /// The last place of scattering, and the density of the direction chosen there; none for a delta.
     vertex: Vertex,
     density: Option<f64>,
-    /// True if a wavelength is to be kept where something disperses; and the one that has been [nm].
-    disperses: bool,
-    kept: Option<f64>,
+    waves: Wavelengths,
 }
 
 impl<'a> Path<'a> {
@@ -102,8 +101,9 @@ impl<'a> Path<'a> {
             vertex: Vertex { point: Point3D::ORIGIN, instance: None },
             coincident: Coincident::default(),
             density: None,
-            disperses: scene.compiled.any_dispersion && settings.dispersion == Dispersion::Sampled,
-            kept: None,
+            waves: Wavelengths::new(
+                scene.compiled.any_dispersion && settings.dispersion == Dispersion::Sampled,
+            ),
         }
     }
 
@@ -170,7 +170,7 @@ impl<'a> Path<'a> {
             slice: self.slice,
             index_in: self.indices.0,
             index_out: self.indices.1,
-            wavelength: self.kept.unwrap_or(0.5 * (self.slice.min + self.slice.max)),
+            wavelength: self.waves.kept.unwrap_or(0.5 * (self.slice.min + self.slice.max)),
         }
     }
 
@@ -194,7 +194,7 @@ impl<'a> Path<'a> {
         self.ledger.paths += 1;
         self.leaving = None;
         self.density = None;
-        self.kept = None;
+        self.waves.restart();
         self.vertex = Vertex { point: ray.origin, instance: None };
         self.indices = (1.0, 1.0);
         let length = ray.direction.length();
@@ -323,7 +323,7 @@ impl<'a> Path<'a> {
     /// surfaces have left of the light, not how often paths were aimed the same way. Also ends paths that are too
     /// deep, which is not fair and therefore reported.
     fn survives(&mut self) -> bool {
-        let largest = self.throughput.iter().fold(0.0, |a: f64, &b| if b > a { b } else { a });
+        let largest = self.brightest();
         if largest <= 0.0 {
             self.ledger.absorbed += 1;
             return false;

@@ -27,32 +27,34 @@ impl Path<'_> {
     pub fn scatter<B: Bsdf + ?Sized>(&mut self, bsdf: &B, hit: &SurfaceHit) -> Scatter {
         let frame = hit.frame();
         let incoming = frame.to_local(-hit.direction);
-        let at = self.context();
         if self.looks_for_lights() {
             let vertex = Vertex { point: hit.surface.point, instance: Some(hit.surface.instance) };
             if let Some(light) = &sample_lights(self.scene, &vertex, &mut self.rng) {
                 let outgoing = frame.to_local(light.direction);
-                bsdf.evaluate(incoming, outgoing, at, &mut self.reflected);
+                self.evaluate(bsdf, incoming, outgoing);
                 if self.reflected.iter().any(|f| *f > 0.0) {
-                    let density = self.directional_density(bsdf, hit, incoming, outgoing, light.direction);
+                    let own = self.own_density(bsdf, incoming, outgoing);
+                    let density = self.mixed_density(hit.surface.point, light.direction, own);
                     let from = self.origin(hit, light.direction);
                     self.add_light(&from, light, density);
                 }
             }
         }
         let (outgoing, direction) = self.choose(bsdf, hit, &frame, incoming);
-        let density = self.directional_density(bsdf, hit, incoming, outgoing, direction);
+        let own = self.own_density(bsdf, incoming, outgoing);
+        let density = self.mixed_density(hit.surface.point, direction, own);
         if density.is_nan() || density <= 0.0 {
             return Scatter::Absorbed;
         }
-        bsdf.evaluate(incoming, outgoing, at, &mut self.reflected);
+        // A direction that the surface would never take carries nothing.
+        self.favour = if own > 0.0 { density / own } else { 1.0 };
+        let before = self.waves.by_bins.then(|| (self.throughput.iter().sum(), self.brightest()));
+        self.evaluate(bsdf, incoming, outgoing);
         let inverse = 1.0 / density;
         self.throughput.iter_mut().zip(&self.reflected).for_each(|(t, f)| *t *= f * inverse);
         self.density = Some(density);
-        if self.targets().is_some() {
-            let own = bsdf.pdf(incoming, outgoing, at);
-            // A direction that the surface would never take carries nothing, and has been sent back above.
-            self.favour = if own > 0.0 { density / own } else { 1.0 };
+        if let Some(before) = before {
+            self.favour *= self.favour_by_bins(before);
         }
         Scatter::Continue { direction }
     }
@@ -89,7 +91,11 @@ impl Path<'_> {
         if let Some(direction) = self.aimed_direction(hit.surface.point) {
             return (frame.to_local(direction), direction);
         }
-        let outgoing = bsdf.sample(incoming, self.context(), &mut self.rng);
+        let outgoing = if self.waves.by_bins {
+            self.sample_by_bins(bsdf, incoming)
+        } else {
+            bsdf.sample(incoming, self.context(), &mut self.rng)
+        };
         (outgoing, unit(frame.to_world(outgoing)))
     }
 
@@ -128,17 +134,23 @@ impl Path<'_> {
         Origin { point: hit.surface.point, leaving: Some(leaving), media }
     }
 
-    /// Density [1/sr] of [`choose`](Self::choose).
+    /// Density [1/sr] of a direction that the surface itself chooses.
     #[inline]
-    fn directional_density<B: Bsdf + ?Sized>(
-        &self,
-        bsdf: &B,
-        hit: &SurfaceHit,
-        incoming: Vector3D,
-        outgoing: Vector3D,
-        direction: Vector3D,
-    ) -> f64 {
-        self.mixed_density(hit.surface.point, direction, bsdf.pdf(incoming, outgoing, self.context()))
+    fn own_density<B: Bsdf + ?Sized>(&self, bsdf: &B, incoming: Vector3D, outgoing: Vector3D) -> f64 {
+        if self.waves.by_bins {
+            return self.density_by_bins(bsdf, incoming, outgoing);
+        }
+        bsdf.pdf(incoming, outgoing, self.context())
+    }
+
+    /// The scattering function times cosine, into `reflected`.
+    #[inline]
+    fn evaluate<B: Bsdf + ?Sized>(&mut self, bsdf: &B, incoming: Vector3D, outgoing: Vector3D) {
+        if self.waves.by_bins {
+            return self.evaluate_by_bins(bsdf, incoming, outgoing);
+        }
+        let at = self.context();
+        bsdf.evaluate(incoming, outgoing, at, &mut self.reflected);
     }
 
     /// Adds the light of a sampled direction, if nothing is in its way. `density` is that with which the path would
@@ -180,9 +192,8 @@ impl Path<'_> {
         let at = SurfaceHit { surface: *surface, direction: light.direction };
         let material = scene.instances[instance as usize].attached.material();
         // The light stands in other media than the place that it is looked for from; one that a medium hides is not met.
-        let Some((index_in, index_out)) = self.indices_at(&around, surface) else { return };
-        let context = crate::Context { index_in, index_out, ..self.context() };
-        if material.emit(&at, context, &mut self.emitted) {
+        let index_use = scene.compiled.facts[instance as usize].index_use;
+        if self.emission_of_light(material, &at, &around, index_use) {
             let weight = heuristic(light.density, density) / light.density;
             let found = self.reflected.iter().zip(&self.emitted);
             let found = self.throughput.iter().zip(found);

@@ -61,6 +61,6 @@ impl Material for AnisotropicSurfaceEmitter {
     }
 
     fn facts(&self) -> Facts {
-        Facts { importance: self.importance, ..Facts::emitter("AnisotropicSurfaceEmitter") }
+        Facts { importance: self.importance, ..Facts::emitter("AnisotropicSurfaceEmitter").without_index() }
     }
 }

@@ -65,7 +65,7 @@ impl Material for Checkerboard {
     }
 
     fn facts(&self) -> Facts {
-        Facts { importance: self.importance, ..Facts::emitter("Checkerboard") }
+        Facts { importance: self.importance, ..Facts::emitter("Checkerboard").without_index() }
     }
 
     fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {

@@ -61,7 +61,7 @@ impl Material for DebugLight {
     }
 
     fn facts(&self) -> Facts {
-        Facts::emitter("DebugLight")
+        Facts::emitter("DebugLight").without_index()
     }
 
     fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {

@@ -36,7 +36,7 @@ impl Material for UniformSurfaceEmitter {
     }
 
     fn facts(&self) -> Facts {
-        Facts { importance: self.importance, ..Facts::emitter("UniformSurfaceEmitter") }
+        Facts { importance: self.importance, ..Facts::emitter("UniformSurfaceEmitter").without_index() }
     }
 
     fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {

@@ -33,7 +33,7 @@ impl Material for UnitySurfaceEmitter {
     }
 
     fn facts(&self) -> Facts {
-        Facts { importance: self.importance, ..Facts::emitter("UnitySurfaceEmitter") }
+        Facts { importance: self.importance, ..Facts::emitter("UnitySurfaceEmitter").without_index() }
     }
 
     fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {

@@ -4,7 +4,7 @@ use raysect_math::{Rng, Vector3D};
 
 use super::ggx::{Ggx, Masking};
 use crate::material::conductor::Metal;
-use crate::material::{Bsdf, Context, FresnelLaw, Material, Scatter, SurfaceHit};
+use crate::material::{Bsdf, Context, Facts, FresnelLaw, IndexUse, Material, Scatter, SurfaceHit};
 use crate::{OpticalError, Path, Slice, SpectralTable};
 
 /// A rough metal: a surface of small mirrors in the GGX distribution, whose normals are drawn as they are seen.
@@ -92,6 +92,10 @@ impl Bsdf for RoughConductor {
 impl Material for RoughConductor {
     fn surface(&self, hit: &SurfaceHit, path: &mut Path<'_>) -> Scatter {
         path.scatter(self, hit)
+    }
+
+    fn facts(&self) -> Facts {
+        Facts { index_use: IndexUse::EachBin, ..Facts::named("RoughConductor") }
     }
 
     fn check(&self, slice: &Slice) -> Result<(), OpticalError> {

@@ -4,7 +4,7 @@ use raysect_math::{Rng, Vector3D};
 
 use super::ggx::{Ggx, Masking};
 use crate::material::dielectric::fresnel;
-use crate::material::{Bsdf, Context, Dielectric, Facts, Material, Medium, Scatter, SurfaceHit};
+use crate::material::{Bsdf, Context, Dielectric, Facts, IndexUse, Material, Medium, Scatter, SurfaceHit};
 use crate::{OpticalError, Path, Slice, SpectralTable};
 
 /// A transparent solid with a rough surface, like ground glass: facets in the GGX distribution that reflect and
@@ -12,7 +12,8 @@ use crate::{OpticalError, Path, Slice, SpectralTable};
 ///
 /// Inside it is a [`Dielectric`], with the same rules for overlapping solids, and radiance changes by the square of
 /// the ratio of the indices. Light that meets more than one facet at once is lost. For roughness → 0 it becomes a
-/// [`Dielectric`].
+/// [`Dielectric`]. Where its index depends on the wavelength paths carry all their bins through it, each with the index
+/// of its own wavelength (see [`Dispersion`](crate::Dispersion)).
 #[derive(Debug, Clone)]
 pub struct RoughDielectric {
     smooth: Dielectric,
@@ -157,7 +158,7 @@ impl Material for RoughDielectric {
     }
 
     fn facts(&self) -> Facts {
-        self.smooth.facts()
+        Facts { index_use: IndexUse::EachBin, ..self.smooth.facts() }
     }
 
     fn check(&self, slice: &Slice) -> Result<(), OpticalError> {

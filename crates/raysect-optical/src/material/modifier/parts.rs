@@ -5,7 +5,7 @@ use std::sync::Arc;
 use raysect_core::save::{SaveError, Saved, SceneWriter};
 
 use super::buffers::with_buffer;
-use crate::material::{Context, Facts, Material, Medium, SurfaceHit};
+use crate::material::{Context, Facts, IndexUse, Material, Medium, SurfaceHit};
 use crate::{OpticalError, Slice};
 
 /// What of two materials is combined.
@@ -119,6 +119,7 @@ impl Parts {
             transparent: first.transparent && second.transparent,
             disperses,
             absorbs: first.absorbs && second.absorbs,
+            index_use: common(first.index_use, second.index_use),
         }
     }
 
@@ -134,6 +135,15 @@ impl Parts {
             .reference("second", writer.shared_object(&self.second)?)
             .flag("surface_only", self.scope == Scope::Surface)
             .flag("volume_only", self.scope == Scope::Volume))
+    }
+}
+
+/// What two surfaces in one place do with the indices.
+fn common(first: IndexUse, second: IndexUse) -> IndexUse {
+    match (first, second) {
+        (IndexUse::None, other) | (other, IndexUse::None) => other,
+        (IndexUse::EachBin, IndexUse::EachBin) => IndexUse::EachBin,
+        _ => IndexUse::One,
     }
 }
 

@@ -17,5 +17,5 @@ use super::Facts;
 /// The facts of a volume behind a surface that lets everything pass.
 fn volume_facts<M: ?Sized>(importance: f64) -> Facts {
     let name = short_name(std::any::type_name::<M>());
-    Facts { importance, transparent: true, ..Facts::named(name) }
+    Facts { importance, transparent: true, ..Facts::named(name).without_index() }
 }

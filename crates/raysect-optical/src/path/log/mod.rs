@@ -93,7 +93,7 @@ impl PathLog {
             vertices: self.vertices,
             radiance: path.radiance.clone(),
             range: (path.slice.min, path.slice.max),
-            wavelength: path.kept,
+            wavelength: path.waves.kept,
             depth: path.depth,
             rays: now.rays - before.rays,
             shadow_rays: now.shadow_rays - before.shadow_rays,
