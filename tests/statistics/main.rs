@@ -8,6 +8,7 @@ mod adaptive;
 mod coverage;
 mod dark;
 mod pictures;
+mod scopes;
 mod score;
 mod seeds;
 mod sensors;

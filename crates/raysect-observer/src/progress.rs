@@ -11,7 +11,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 pub struct Progress {
     /// Samples of all pixels that are done.
     pub samples: u64,
-    /// Samples of all pixels that are foreseen.
+    /// Samples of all pixels that are foreseen, where time ends an observation by the rate so far; `u64::MAX` as long as
+    /// nothing is foreseen.
     pub total: u64,
     /// Time since its beginning.
     pub elapsed: Duration,
@@ -27,8 +28,12 @@ impl Progress {
         if seconds > 0.0 { self.samples as f64 / seconds } else { 0.0 }
     }
 
-    /// The time that the samples still missing will take at this rate; none before the first sample.
+    /// The time that the samples still missing will take at this rate; none before the first sample, and as long as
+    /// nothing is foreseen.
     pub fn left(&self) -> Option<Duration> {
+        if self.total == u64::MAX {
+            return None;
+        }
         let missing = self.total.saturating_sub(self.samples) as f64;
         Duration::try_from_secs_f64(missing / self.rate()).ok()
     }
@@ -44,15 +49,17 @@ pub(crate) struct Meter {
     started: Instant,
     told: Instant,
     samples: u64,
+    /// What is foreseen by numbers, and when time ends it [s].
     total: u64,
+    deadline: Option<f64>,
     relative_error: f64,
 }
 
 const INTERVAL: Duration = Duration::from_millis(200);
 
 impl Meter {
-    pub(crate) fn new(total: u64, quiet: bool, watcher: Option<Arc<Watcher>>) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
+    pub(crate) fn new(quiet: bool, watcher: Option<Arc<Watcher>>) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden());
         if !quiet && std::io::stderr().is_terminal() {
             bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(4));
         }
@@ -62,13 +69,34 @@ impl Meter {
             bar.set_style(style);
         }
         let now = Instant::now();
-        Self { bar, watcher, started: now, told: now, samples: 0, total, relative_error: f64::INFINITY }
+        Self {
+            bar,
+            watcher,
+            started: now,
+            told: now,
+            samples: 0,
+            total: u64::MAX,
+            deadline: None,
+            relative_error: f64::INFINITY,
+        }
+    }
+
+    /// Time ends the observation [s].
+    pub(crate) fn end_after(&mut self, deadline: Option<f64>) {
+        self.deadline = deadline;
+    }
+
+    /// Samples that will have been taken when numbers or time end the observation.
+    fn expected(&self) -> u64 {
+        let Some(deadline) = self.deadline else { return self.total };
+        let in_time = self.samples as f64 * deadline / self.elapsed().as_secs_f64();
+        if in_time.is_nan() { self.total } else { (in_time as u64).clamp(self.samples, self.total) }
     }
 
     /// Another number of samples is foreseen.
     pub(crate) fn foresee(&mut self, total: u64) {
         self.total = total.max(self.samples);
-        self.bar.set_length(self.total);
+        self.bar.set_length(self.expected());
     }
 
     /// The relative error of the total is known anew.
@@ -88,10 +116,12 @@ impl Meter {
         self.bar.set_position(self.samples);
         if self.told.elapsed() >= INTERVAL || self.samples >= self.total {
             self.told = Instant::now();
+            let total = self.expected();
+            self.bar.set_length(total);
             if let Some(watcher) = &self.watcher {
                 watcher(&Progress {
                     samples: self.samples,
-                    total: self.total,
+                    total,
                     elapsed: self.started.elapsed(),
                     relative_error: self.relative_error,
                 });
@@ -123,5 +153,21 @@ mod tests {
         assert_eq!((begun.rate(), begun.left()), (0.0, None));
         let done = Progress { samples: 400, ..progress };
         assert_eq!(done.left(), Some(Duration::ZERO));
+        assert_eq!(Progress { total: u64::MAX, ..progress }.left(), None);
+    }
+
+    #[test]
+    fn time_foresees_samples_by_their_rate() {
+        let mut meter = Meter::new(true, None);
+        meter.end_after(Some(1000.0));
+        meter.add(50);
+        std::thread::sleep(Duration::from_millis(20));
+        let expected = meter.expected() as f64;
+        let by_rate = 50.0 * 1000.0 / meter.elapsed().as_secs_f64();
+        assert!(expected >= by_rate && expected < 50.0 * 1000.0 / 0.02, "{expected} {by_rate}");
+        meter.foresee(60);
+        assert_eq!(meter.expected(), 60);
+        meter.end_after(Some(1e-9));
+        assert_eq!(meter.expected(), 50);
     }
 }

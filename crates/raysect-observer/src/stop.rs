@@ -13,6 +13,24 @@ pub enum Scope {
     Total,
     /// Each pixel and channel: this share of them, 0 … 1, must be accurate enough.
     Pixels(f64),
+    /// Each pixel and channel that may be as bright as a level: this share of them. A pixel is left out once its value
+    /// lies three standard errors below the level, and so does what could hide between its samples.
+    Above {
+        /// The level [unit of the pipeline].
+        level: f64,
+        /// The share, 0 … 1.
+        share: f64,
+    },
+}
+
+impl Scope {
+    /// How many of the values that it looks at must be accurate enough, 0 … 1.
+    fn share(self) -> f64 {
+        match self {
+            Self::Total => 1.0,
+            Self::Pixels(share) | Self::Above { share, .. } => share,
+        }
+    }
 }
 
 /// When an observation is good enough, or has taken long enough.
@@ -21,6 +39,9 @@ pub enum Scope {
 /// use raysect_observer::{Scope, Stop, minutes};
 /// let stop = Stop::relative_error(0.01).or_after(minutes(10.0));
 /// let picture = Stop::relative_error(0.05).scope(Scope::Pixels(0.95)).or_samples(10_000);
+/// // Two per cent of what is bright, and 0.1 of what is dark.
+/// let both = Stop::relative_error(0.02).or_absolute_error(0.1).scope(Scope::Pixels(1.0));
+/// let spots = Stop::relative_error(0.02).scope(Scope::Above { level: 10.0, share: 0.99 });
 /// ```
 ///
 /// Whether the error is small enough is decided by *pilot* samples of their own, which are thrown away: an average
@@ -72,6 +93,16 @@ impl Stop {
         Self { absolute: Some(error), ..Self::NEVER }
     }
 
+    /// Also when the standard error is this small relative to the value: each value needs one of the two.
+    pub fn or_relative_error(self, error: f64) -> Self {
+        Self { relative: Some(error), ..self }
+    }
+
+    /// Also when the standard error is this small, in the unit of the pipeline: each value needs one of the two.
+    pub fn or_absolute_error(self, error: f64) -> Self {
+        Self { absolute: Some(error), ..self }
+    }
+
     /// After this many samples a pixel.
     pub fn samples(samples: u64) -> Self {
         Self { samples: Some(samples), ..Self::NEVER }
@@ -106,9 +137,13 @@ impl Stop {
         if self.samples == Some(0) {
             return Err(ObserverError::Stop("no samples at all"));
         }
+        let share = self.scope.share();
+        if !(share > 0.0 && share <= 1.0) {
+            return Err(ObserverError::Stop("the share of pixels must lie in 0 … 1, without 0"));
+        }
         match self.scope {
-            Scope::Pixels(share) if !(share > 0.0 && share <= 1.0) => {
-                Err(ObserverError::Stop("the share of pixels must lie in 0 … 1, without 0"))
+            Scope::Above { level, .. } if !(level > 0.0 && level.is_finite()) => {
+                Err(ObserverError::Stop("the level of the pixels that count must be positive and finite"))
             }
             _ => Ok(()),
         }
@@ -142,9 +177,18 @@ impl Element {
     /// True if nothing has been seen, and what could hide is negligible: fewer than one in n / 3 samples at 95 %
     /// confidence (the rule of three), none larger than the largest seen anywhere.
     fn is_negligible(&self) -> bool {
-        // Where nothing at all has been seen, nothing is known of what could hide.
-        let hidden = 3.0 / self.samples as f64 * self.largest;
-        self.contributing == 0 && self.largest > 0.0 && hidden <= self.negligible
+        self.contributing == 0 && self.hides_at_most(self.negligible)
+    }
+
+    /// True if what could hide between the samples would not bring a value to a level. Where nothing at all has been
+    /// seen, nothing is known of it.
+    fn hides_at_most(&self, level: f64) -> bool {
+        self.largest > 0.0 && 3.0 / self.samples as f64 * self.largest <= level
+    }
+
+    /// True if the value lies below a level, whatever chance has done to it.
+    fn is_below(&self, level: f64) -> bool {
+        self.estimate.value + 3.0 * self.estimate.error < level && self.hides_at_most(level)
     }
 
     /// How many samples that are all alike it takes to be as accurate as asked for; none if they are not alike, or
@@ -205,9 +249,9 @@ pub(crate) fn elements(stop: &Stop, frames: &[Frame]) -> Vec<Element> {
                     negligible: 0.0,
                     largest,
                 }),
-                Scope::Pixels(_) => {
+                Scope::Pixels(_) | Scope::Above { .. } => {
                     let negligible = stop.target(total.value / count as f64);
-                    all.extend(pixels.iter().map(|&p| {
+                    let of_pixels = pixels.iter().map(|&p| {
                         let estimate = frame.pixel(p, channel);
                         Element {
                             estimate,
@@ -217,6 +261,10 @@ pub(crate) fn elements(stop: &Stop, frames: &[Frame]) -> Vec<Element> {
                             negligible,
                             largest,
                         }
+                    });
+                    all.extend(of_pixels.filter(|element| match stop.scope {
+                        Scope::Above { level, .. } => !element.is_below(level),
+                        _ => true,
                     }));
                 }
             }
@@ -227,22 +275,19 @@ pub(crate) fn elements(stop: &Stop, frames: &[Frame]) -> Vec<Element> {
 
 /// Samples a pixel that satisfy a rule, by what the pilot tells; none if it tells too little.
 pub(crate) fn needed_samples(stop: &Stop, elements: &[Element]) -> Option<u64> {
-    let share = match stop.scope {
-        Scope::Total => 1.0,
-        Scope::Pixels(share) => share,
-    };
     let mut needed: Vec<f64> = elements.iter().map(|e| e.needed().unwrap_or(f64::INFINITY)).collect();
     needed.sort_by(f64::total_cmp);
-    let place = ((needed.len() as f64 * share).ceil() as usize).clamp(1, needed.len()) - 1;
-    needed.get(place).filter(|n| n.is_finite()).map(|n| n.ceil() as u64)
+    let place = (needed.len() as f64 * stop.scope.share()).ceil() as usize;
+    let Some(most) = place.checked_sub(1) else {
+        // Nothing is as bright as the level.
+        return Some(0);
+    };
+    needed.get(most).filter(|n| n.is_finite()).map(|n| n.ceil() as u64)
 }
 
 /// True if enough elements have converged, and how many have not.
 pub(crate) fn verdict(stop: &Stop, elements: &[Element]) -> (bool, usize) {
     let failed = elements.iter().filter(|e| !e.is_converged()).count();
-    let allowed = match stop.scope {
-        Scope::Total => 0.0,
-        Scope::Pixels(share) => (1.0 - share) * elements.len() as f64 + 1e-9,
-    };
+    let allowed = (1.0 - stop.scope.share()) * elements.len() as f64 + 1e-9;
     (failed as f64 <= allowed, failed)
 }

@@ -108,7 +108,7 @@ impl<'a, S: Sensor> Session<'a, S> {
             statepoint,
             engine: observer.chosen_engine()?,
             report,
-            meter: Meter::new(0, observer.is_quiet(), observer.watcher()),
+            meter: Meter::new(observer.is_quiet(), observer.watcher()),
         })
     }
 

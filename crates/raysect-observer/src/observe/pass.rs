@@ -98,7 +98,7 @@ impl<'a, S: Sensor> Session<'a, S> {
         let strides: Vec<usize> = sums.iter().map(Sums::open_stride).collect();
         let (mut ledger, mut invalid, mut samples, mut cancelled) = (Ledger::default(), 0, 0, false);
         let mut rays = std::mem::take(&mut self.rays);
-        let mut meter = std::mem::replace(&mut self.meter, crate::progress::Meter::new(0, true, None));
+        let mut meter = std::mem::replace(&mut self.meter, crate::progress::Meter::new(true, None));
         let before: Vec<Sums> = sums.iter().map(Sums::open_part).collect();
         let outcome = {
             let pipelines: Vec<&dyn Pipeline> = self.pipelines.iter().map(|p| &**p).collect();

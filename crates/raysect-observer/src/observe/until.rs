@@ -15,11 +15,12 @@ impl<S: Sensor> Session<'_, S> {
     pub(crate) fn observe_until(mut self, stop: &Stop) -> Result<RenderReport, ObserverError> {
         let deadline = stop.time.map(|t| t.as_secs_f64());
         let limit = stop.samples.unwrap_or(u64::MAX);
+        let (pixels, earlier) = (self.pixels(), self.samples_before());
+        self.meter.end_after(deadline);
         if !stop.has_target() {
-            let pixels = self.pixels();
-            self.meter.foresee(stop.samples.unwrap_or(0).saturating_mul(pixels));
-            let before = self.samples_before();
-            self.take(limit.saturating_sub(before), limit, deadline)?;
+            let due = limit.saturating_sub(earlier);
+            self.meter.foresee(due.saturating_mul(pixels));
+            self.take(due, limit, deadline)?;
             return Ok(self.finish());
         }
         let mut pilot = Pilot::new(&self, limit);
@@ -28,8 +29,8 @@ impl<S: Sensor> Session<'_, S> {
         let mut most = extended(foreseen, limit);
         loop {
             let before = self.samples_before();
-            let pixels = self.pixels();
-            self.meter.foresee(wanted.saturating_add(pilot.samples).saturating_mul(pixels));
+            let all = wanted.saturating_sub(earlier).saturating_add(pilot.samples);
+            self.meter.foresee(all.saturating_mul(pixels));
             let due = wanted.saturating_sub(before);
             let taken = self.take(due, wanted, deadline)?;
             let lane = self.observer.lane_number();
