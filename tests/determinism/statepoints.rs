@@ -118,3 +118,44 @@ fn other_observations_do_not_go_on() {
     let names = matches!(error, ObserverError::Statepoint(StatepointError::OtherPipelines { .. }));
     assert!(names, "{error}");
 }
+
+#[test]
+fn pipelines_of_one_kind_are_told_apart_by_their_names() {
+    let folder = Folder::new("names");
+    let (world, path) = (CASE.world(), folder.join("state"));
+    let camera = CASE.camera(10).statepoint(&path);
+    let whole = || RadiancePipeline2D::new();
+    let red = || RadiancePipeline2D::new().filter(|w: f64| f64::from(w > 600.0)).named("red");
+    let refused = camera.observe(&world, &mut (&mut whole(), &mut red().named("radiance")));
+    assert!(matches!(refused, Err(ObserverError::SameName(..))), "{refused:?}");
+    assert!(!path.exists());
+    camera.observe(&world, &mut (&mut whole(), &mut red())).unwrap();
+    let swapped = camera.resume(&world, &mut (&mut red(), &mut whole()));
+    let refused = swapped.map_err(|error| error.to_string()).unwrap_err();
+    assert!(refused.contains("red [W/m²/sr]"), "{refused}");
+    let (mut all, mut part) = (whole(), red());
+    assert!(camera.resume(&world, &mut (&mut all, &mut part)).unwrap());
+    assert!(part.frame().total().value < all.frame().total().value && part.frame().name() == "red");
+}
+
+#[test]
+fn a_scene_with_a_closure_in_it_is_known_by_all_else() {
+    let folder = Folder::new("closure");
+    let world = |white: f64, length: f64| {
+        let mut world = CASE.world();
+        let ball = Sphere::new(0.1).unwrap().material(Lambert::new(white));
+        world.add(ball.transform(translate(0.0, 0.3, 0.0))).unwrap();
+        let glow = InhomogeneousVolumeEmitter::length_scale(length, |_, _, _, out| out.fill(1.0)).unwrap();
+        let ball = Sphere::new(0.1).unwrap().material(glow);
+        world.add(ball.transform(translate(0.0, -0.3, 0.0)).meta("rate", 0.5)).unwrap();
+        world
+    };
+    let camera = CASE.camera(10).statepoint(folder.join("state"));
+    camera.observe(&world(0.5, 0.1), &mut RadiancePipeline2D::new()).unwrap();
+    let resume = |world: &World| camera.resume(world, &mut RadiancePipeline2D::new());
+    assert!(resume(&world(0.5, 0.1)).unwrap());
+    let refused = resume(&world(0.6, 0.1)).map_err(|error| error.to_string()).unwrap_err();
+    assert!(refused.contains("description"), "{refused}");
+    // What the closure does is not known, nor what goes with it.
+    assert!(resume(&world(0.5, 0.2)).unwrap());
+}

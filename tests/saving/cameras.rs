@@ -82,17 +82,17 @@ fn every_etendue_comes_back() {
 #[test]
 fn pipelines_come_back_without_their_samples() {
     let filter = InterpolatedSf::new([400.0, 500.0], [0.1, 0.9]).unwrap();
-    comes_back(&PowerPipeline2D::new());
+    comes_back(&PowerPipeline2D::new().named("through the slit"));
     comes_back(&PowerPipeline2D::new().filter(filter.clone()));
     comes_back(&RadiancePipeline2D::new().filter(filter.clone()));
     comes_back(&BayerPipeline2D::new(filter.clone(), 0.5, 0.25).preview("bayer.png"));
     comes_back(&SpectralPowerPipeline::new().preview("a.csv"));
-    comes_back(&SpectralRadiancePipeline::new());
+    comes_back(&SpectralRadiancePipeline::new().named("spectrum"));
     comes_back(&FunctionalPipeline::photons().band("all", 100.0, 1000.0).unwrap());
     comes_back(&FunctionalPipeline::radiance().functional("slope", filter.clone()).functional("one", 1.0));
     comes_back(&RgbPipeline2D::new().observer(CieObserver::FiveNanometres).preview("a.png"));
     comes_back(&RgbPipeline2D::new().unsaturated_fraction(0.95).unwrap());
-    comes_back(&RgbPipeline2D::new().sensitivity(3.5).unwrap());
+    comes_back(&RgbPipeline2D::new().named("left").sensitivity(3.5).unwrap());
 
     let mut world = World::new();
     world.add(Sphere::new(10.0).unwrap().material(UniformSurfaceEmitter::new(1.0, 1.0))).unwrap();
@@ -116,7 +116,7 @@ fn displays_of_pipelines_come_back() {
     for display in displays {
         comes_back(&PowerPipeline2D::new().display(display).preview("a.png"));
         comes_back(&RadiancePipeline2D::new().display(display));
-        comes_back(&FunctionalPipeline::power().display(display));
+        comes_back(&FunctionalPipeline::power().named("lines").display(display));
         texts.insert(again(&World::new(), &BayerPipeline2D::new(1.0, 1.0, 1.0).display(display)).0);
     }
     assert_eq!(texts.len(), 4);

@@ -56,6 +56,8 @@ fn materials() -> Vec<Optics> {
         Optics::new(AbsorbingSurface),
         Optics::new(NullMaterial),
         Optics::new(UniformVolume::emitter(table.clone()).absorption(0.3).importance(0.2)),
+        Optics::new(UniformVolume::new().scattering(table.clone(), HenyeyGreenstein::new(-0.4).unwrap())),
+        Optics::new(UniformVolume::emitter(0.2).scattering(0.3, Rayleigh)),
         Optics::new(
             VolumeTransform::new(
                 Arc::new(UniformVolume::emitter(0.1)),
@@ -131,6 +133,7 @@ fn every_material_and_spectral_function_comes_back() {
     }
     has_every_kind(&world, "material");
     has_every_kind(&world, "function");
+    has_every_kind(&world, "phase");
 }
 
 #[test]

@@ -44,6 +44,11 @@ pub enum ObserverError {
         /// Its samples a pixel.
         second_samples: u64,
     },
+    /// Pipelines whose state is kept together cannot be told apart.
+    #[error(
+        "two pipelines are called '{0}' [{1}]: give them names, so that each finds its own samples in the statepoint"
+    )]
+    SameName(String, String),
     /// A pipeline has accumulated something else before.
     #[error(
         "pipeline '{name}' has accumulated {before}, which cannot be continued with {now}: use a new pipeline, or clear its frame"

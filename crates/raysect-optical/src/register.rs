@@ -6,9 +6,10 @@ use raysect_math::Vector3D;
 use crate::material::{LAWS, MASKINGS};
 use crate::{
     AbsorbingSurface, Add, BlackBody, Blend, Checkerboard, Conductor, DebugLight, Dielectric, GaussianLine,
-    InterpolatedSf, Lambert, Material, NullMaterial, Optics, PerfectReflectingSurface, RoughConductor,
-    RoughDielectric, Roughen, Sellmeier, SpectralFunction, SpectralTable, Spectrum, TopHat,
-    UniformSurfaceEmitter, UniformVolume, UnitySurfaceEmitter, VolumeTransform,
+    HenyeyGreenstein, InterpolatedSf, Lambert, Material, NullMaterial, Optics, PerfectReflectingSurface,
+    PhaseFunction, Rayleigh, RoughConductor, RoughDielectric, Roughen, Sellmeier, SpectralFunction,
+    SpectralTable, Spectrum, TopHat, UniformSurfaceEmitter, UniformVolume, UnitySurfaceEmitter,
+    VolumeTransform,
 };
 
 /// A world of shapes with materials as a file had it, and what was kept with it.
@@ -128,8 +129,15 @@ fn emitters(registry: &mut Registry) {
         if entry.has("absorption") {
             volume = volume.absorption(entry.function("absorption")?);
         }
+        if entry.has("scattering") {
+            volume = volume.shared_scattering(entry.function("scattering")?, entry.object("phase")?);
+        }
         Ok(volume)
     });
+    registry.object::<dyn PhaseFunction>("HenyeyGreenstein", |entry| {
+        Ok(Arc::new(HenyeyGreenstein::new(entry.number("asymmetry")?)?))
+    });
+    registry.object::<dyn PhaseFunction>("Rayleigh", |_| Ok(Arc::new(Rayleigh)));
     registry.material("UniformSurfaceEmitter", |entry| {
         let emitter = UniformSurfaceEmitter::new(entry.function("spectrum")?, entry.number("scale")?);
         Ok(emitter.importance(entry.number("importance")?))

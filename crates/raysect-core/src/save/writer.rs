@@ -24,6 +24,8 @@ pub struct SceneWriter {
     nodes: Vec<String>,
     node_ids: HashMap<NodeId, u64>,
     settings: BTreeMap<String, String>,
+    /// True if what cannot be saved is to stand there by its kind.
+    pub(crate) describes: bool,
 }
 
 impl std::fmt::Debug for SceneWriter {
@@ -39,7 +41,23 @@ impl SceneWriter {
     /// [`SaveError`] with the name of the node for a shape or an attachment that does not say how it is saved, for a
     /// user's value of a type that a file does not know, and for detached nodes, which belong to no place.
     pub fn new<A: Attachment + SceneObject>(world: &World<A>) -> Result<Self, SaveError> {
-        let mut writer = Self {
+        let mut writer = Self::empty();
+        world.write(&mut writer)?;
+        Ok(writer)
+    }
+
+    /// What is in a world, as text that can be compared with that of another. Everything that can be saved stands in it
+    /// to the last bit; what does not say how it is saved stands there by its kind alone, and nothing can be read back.
+    pub fn describe<A: Attachment + SceneObject>(world: &World<A>) -> String {
+        let mut writer = Self { describes: true, ..Self::empty() };
+        match world.write(&mut writer) {
+            Ok(()) => writer.to_json(),
+            Err(error) => format!("{error}\n{}", writer.to_json()),
+        }
+    }
+
+    fn empty() -> Self {
+        Self {
             name: String::new(),
             meta: None,
             acceleration: "",
@@ -50,9 +68,16 @@ impl SceneWriter {
             nodes: Vec::new(),
             node_ids: HashMap::new(),
             settings: BTreeMap::new(),
-        };
-        world.write(&mut writer)?;
-        Ok(writer)
+            describes: false,
+        }
+    }
+
+    /// What an object says of itself, or its kind where a description has to do without.
+    fn saved(&self, saved: Result<Saved, SaveError>) -> Result<Saved, SaveError> {
+        match saved {
+            Err(error) if self.describes => Ok(Saved::new(error.to_string())),
+            other => other,
+        }
     }
 
     /// Keeps a camera, a pipeline or anything else that is [`Storable`] under a name.
@@ -73,7 +98,8 @@ impl SceneWriter {
     /// # Errors
     /// Whatever prevents it from being saved.
     pub fn object<T: SceneObject + ?Sized>(&mut self, object: &T) -> Result<Reference, SaveError> {
-        let saved = object.save(self)?;
+        let saved = object.save(self);
+        let saved = self.saved(saved)?;
         self.put(T::ROLE, saved)
     }
 
@@ -85,7 +111,8 @@ impl SceneWriter {
         &mut self,
         object: &Arc<T>,
     ) -> Result<Reference, SaveError> {
-        let saved = self.shared(object, |object, writer| object.save(writer))?;
+        let saved = self.shared(object, |object, writer| object.save(writer));
+        let saved = self.saved(saved)?;
         self.put(T::ROLE, saved)
     }
 
@@ -113,7 +140,10 @@ impl SceneWriter {
             Some(id) if saved.is_bare() => id,
             Some(id) => return Err(SaveError::NoPlace(format!("a field added to the shared object {id}"))),
             None => {
-                let body: Arc<str> = saved.body(Some(role))?.into();
+                let body: Arc<str> = match saved.body(Some(role)) {
+                    Err(error) if self.describes => error.to_string().into(),
+                    body => body?.into(),
+                };
                 let next = self.objects.len() as u64;
                 let id = *self.by_text.entry(body.clone()).or_insert(next);
                 if id == next {

@@ -59,17 +59,18 @@ impl<A: Attachment + SceneObject> World<A> {
             Acceleration::Automatic => "Automatic",
             Acceleration::List => "List",
             Acceleration::Tree => "Tree",
+            Acceleration::Custom(_) if writer.describes => "Custom",
             Acceleration::Custom(_) => {
                 return Err(SaveError::NoPlace("an acceleration structure of the user's own".to_owned()));
             }
         };
         let loose = (1..self.slots.len()).find(|&i| !self.slots[i].vacant && self.slots[i].parent.is_none());
-        if let Some(index) = loose {
+        if let Some(index) = loose.filter(|_| !writer.describes) {
             let label = self.label(index as u32);
             return Err(SaveError::NoPlace(format!("the detached node '{label}'")));
         }
         let root = &self.slots[0].node;
-        writer.meta = write_meta(&root.meta)?;
+        writer.meta = meta_of(root, writer)?;
         writer.name.clone_from(&root.name);
         writer.root(self.root());
         for index in self.below(0).into_iter().skip(1) {
@@ -95,7 +96,7 @@ impl<A: Attachment + SceneObject> World<A> {
             saved = saved.reference("shape", writer.shared_object(primitive)?);
             saved = saved.reference(A::ROLE, writer.shared_object(attached)?);
         }
-        if let Some(meta) = write_meta(&node.meta)? {
+        if let Some(meta) = meta_of(node, writer)? {
             saved = saved.field("meta", meta);
         }
         writer.add_node(self.id(index), &saved)
@@ -125,6 +126,14 @@ impl<A: Attachment + SceneObject> World<A> {
         }
         node.meta = read_meta(entry)?;
         Ok(self.add(node)?)
+    }
+}
+
+/// The users' values of a node; a description does without those that cannot be saved.
+fn meta_of<A>(node: &Node<A>, writer: &SceneWriter) -> Result<Option<Value>, SaveError> {
+    match write_meta(&node.meta) {
+        Err(_) if writer.describes => Ok(None),
+        other => other,
     }
 }
 

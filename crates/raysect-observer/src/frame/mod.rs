@@ -132,6 +132,11 @@ impl Frame {
         &self.name
     }
 
+    /// Gives it another name.
+    pub(crate) fn rename(&mut self, name: String) {
+        self.name = name;
+    }
+
     /// The unit of its values.
     pub fn unit(&self) -> &str {
         &self.unit

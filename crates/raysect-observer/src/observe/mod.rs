@@ -75,6 +75,9 @@ impl<'a, S: Sensor> Session<'a, S> {
         let settings = observer.path_settings();
         let statepoint =
             observer.statepoint_path().map(|path| (path.to_owned(), scene_fingerprint(world, settings)));
+        if statepoint.is_some() {
+            check_names(&list)?;
+        }
         let lane = observer.lane_number();
         check_equal(&list, shape.pixels(), lane)?;
         for pipeline in &mut list {
@@ -219,6 +222,17 @@ impl<'a, S: Sensor> Session<'a, S> {
         }
         Ok(())
     }
+}
+
+/// Refuses pipelines that a statepoint could not tell apart.
+fn check_names(list: &[&mut dyn Pipeline]) -> Result<(), ObserverError> {
+    for (number, one) in list.iter().map(|p| p.frame()).enumerate() {
+        let same = |other: &Frame| other.name() == one.name() && other.unit() == one.unit();
+        if list[..number].iter().any(|p| same(p.frame())) {
+            return Err(ObserverError::SameName(one.name().to_owned(), one.unit().to_owned()));
+        }
+    }
+    Ok(())
 }
 
 fn check_equal(list: &[&mut dyn Pipeline], pixels: usize, lane: u64) -> Result<(), ObserverError> {

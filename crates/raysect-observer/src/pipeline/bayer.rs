@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
 use raysect_optical::{OpticalEntry, Slicing, SpectralTable};
 
-use super::output::Output;
+use super::output::{Output, load_name};
 use super::power::integrate;
 use super::{Measurement, Pipeline};
 use crate::{Frame, FrameShape, MonoDisplay, ObserverError};
@@ -52,6 +52,13 @@ impl BayerPipeline2D {
     fn filter_of(&self, pixel: usize) -> usize {
         let (row, column) = (pixel / self.columns, pixel % self.columns);
         row % 2 + column % 2
+    }
+
+    /// With a name of its own for reports, files and statepoints: by it pipelines of one kind are told apart.
+    #[doc(alias = "name")]
+    pub fn named(mut self, name: impl Into<String>) -> Self {
+        self.frame.rename(name.into());
+        self
     }
 
     /// With other brightness and colours of its pictures.
@@ -120,11 +127,14 @@ impl Storable for BayerPipeline2D {
         for (name, filter) in FILTERS.iter().zip(&self.filters) {
             saved = saved.reference(name, writer.object(filter)?);
         }
-        self.output.save_settings(saved)
+        self.output.save_settings(&self.frame, saved)
     }
 
     fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
         let [red, green, blue] = FILTERS.map(|name| entry.function(name));
-        Ok(Self { output: Output::load_settings(entry)?, ..Self::new(red?, green?, blue?) })
+        let output = Output::load_settings(entry)?;
+        let mut pipeline = Self { output, ..Self::new(red?, green?, blue?) };
+        load_name(&mut pipeline.frame, entry)?;
+        Ok(pipeline)
     }
 }

@@ -5,7 +5,7 @@ use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storab
 use raysect_math::MathError;
 use raysect_optical::{OpticalEntry, Slicing, SpectralFunction, SpectralTable, photon_energy};
 
-use super::output::Output;
+use super::output::{Output, load_name};
 use super::{Measurement, Pipeline};
 use crate::{Frame, MonoDisplay, ObserverError};
 
@@ -123,6 +123,13 @@ impl FunctionalPipeline {
         self
     }
 
+    /// With a name of its own for reports, files and statepoints: by it pipelines of one kind are told apart.
+    #[doc(alias = "name")]
+    pub fn named(mut self, name: impl Into<String>) -> Self {
+        self.frame.rename(name.into());
+        self
+    }
+
     /// With other brightness and colours of its pictures, which show the first channel.
     pub fn display(mut self, display: MonoDisplay) -> Self {
         self.output.display = display;
@@ -200,7 +207,7 @@ impl Storable for FunctionalPipeline {
                 None => saved.reference(&format!("weight {number}"), writer.object(&functional.weight)?),
             };
         }
-        self.output.save_settings(saved)
+        self.output.save_settings(&self.frame, saved)
     }
 
     fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
@@ -214,6 +221,8 @@ impl Storable for FunctionalPipeline {
                 pipeline.functional(name, entry.function(&format!("weight {number}"))?)
             };
         }
-        Ok(Self { output: Output::load_settings(entry)?, ..pipeline })
+        pipeline.output = Output::load_settings(entry)?;
+        load_name(&mut pipeline.frame, entry)?;
+        Ok(pipeline)
     }
 }

@@ -24,13 +24,21 @@ impl Output {
         self.preview.as_ref().map_or(Ok(()), |path| self.save(frame, path))
     }
 
-    pub(super) fn save_settings(&self, saved: Saved) -> Result<Saved, SaveError> {
-        save_preview(self.preview.as_deref(), self.display.save(saved))
+    pub(super) fn save_settings(&self, frame: &Frame, saved: Saved) -> Result<Saved, SaveError> {
+        save_preview(self.preview.as_deref(), self.display.save(saved.text("name", frame.name())))
     }
 
     pub(super) fn load_settings(entry: &Entry<'_>) -> Result<Self, MakeError> {
         Ok(Self { display: MonoDisplay::load(entry)?, preview: load_preview(entry)? })
     }
+}
+
+/// Gives a frame the name that was saved, if one was.
+pub(super) fn load_name(frame: &mut Frame, entry: &Entry<'_>) -> Result<(), SaveError> {
+    if entry.has("name") {
+        frame.rename(entry.text("name")?.to_owned());
+    }
+    Ok(())
 }
 
 /// True if a name ends in a dot and these letters, in any case.

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
 use raysect_optical::{OpticalEntry, Slicing, SpectralTable};
 
-use super::output::Output;
+use super::output::{Output, load_name};
 use super::{Measurement, Pipeline};
 use crate::{Frame, MonoDisplay, ObserverError};
 
@@ -41,6 +41,13 @@ impl PowerPipeline {
     /// Through a filter of a transmission that depends on the wavelength.
     pub fn filter(self, filter: impl Into<SpectralTable>) -> Self {
         Self { filter: Some(filter.into()), ..self }
+    }
+
+    /// With a name of its own for reports, files and statepoints: by it pipelines of one kind are told apart.
+    #[doc(alias = "name")]
+    pub fn named(mut self, name: impl Into<String>) -> Self {
+        self.frame.rename(name.into());
+        self
     }
 
     /// With other brightness and colours of its pictures.
@@ -126,10 +133,13 @@ impl Storable for PowerPipeline {
     const KIND: &'static str = "PowerPipeline";
 
     fn save(&self, saved: Saved, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
-        self.output.save_settings(save_filter(self.filter.as_ref(), saved, writer)?)
+        self.output.save_settings(&self.frame, save_filter(self.filter.as_ref(), saved, writer)?)
     }
 
     fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
-        Ok(Self { filter: load_filter(entry)?, output: Output::load_settings(entry)?, ..Self::new() })
+        let output = Output::load_settings(entry)?;
+        let mut pipeline = Self { filter: load_filter(entry)?, output, ..Self::new() };
+        load_name(&mut pipeline.frame, entry)?;
+        Ok(pipeline)
     }
 }

@@ -5,7 +5,7 @@ use raysect_math::MathError;
 use raysect_optical::Slicing;
 use raysect_optical::colour::{CieObserver, ciexyz_to_srgb, xyz_to_linear_srgb};
 
-use super::output::save_preview;
+use super::output::{load_name, save_preview};
 use super::{Measurement, Pipeline};
 use crate::display::{check_fraction, unsaturated_value};
 use crate::file::{ExrLayer, save_png_rgb8};
@@ -74,6 +74,13 @@ impl RgbPipeline2D {
         MathError::check(admitted, sensitivity, "sensitivity", "", "positive and finite")?;
         self.exposure = Exposure::Fixed(sensitivity);
         Ok(self)
+    }
+
+    /// With a name of its own for reports, files and statepoints: by it pipelines of one kind are told apart.
+    #[doc(alias = "name")]
+    pub fn named(mut self, name: impl Into<String>) -> Self {
+        self.frame.rename(name.into());
+        self
     }
 
     /// Rewrites a PNG picture after every pass, whole at any moment, for a viewer that follows the file.
@@ -183,7 +190,7 @@ impl Storable for RgbPipeline2D {
             Exposure::Automatic(fraction) => saved.number("unsaturated_fraction", fraction),
             Exposure::Fixed(sensitivity) => saved.number("sensitivity", sensitivity),
         };
-        save_preview(self.preview.as_deref(), saved)
+        save_preview(self.preview.as_deref(), saved.text("name", self.frame.name()))
     }
 
     fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
@@ -193,6 +200,7 @@ impl Storable for RgbPipeline2D {
         } else {
             pipeline.unsaturated_fraction(entry.number("unsaturated_fraction")?)?
         };
+        load_name(&mut pipeline.frame, entry)?;
         Ok(if entry.has("preview") { pipeline.preview(entry.text("preview")?) } else { pipeline })
     }
 }

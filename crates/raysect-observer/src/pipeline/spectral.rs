@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter, Storable};
 use raysect_optical::{Slicing, Spectrum};
 
-use super::output::{load_preview, save_preview};
+use super::output::{load_name, load_preview, save_preview};
 use super::{Measurement, Pipeline};
 use crate::{Estimate, Frame, FrameShape, ObserverError};
 
@@ -70,6 +70,13 @@ impl<const POWER: bool> SpectralPipeline<POWER> {
         let (name, unit) =
             if POWER { ("spectral_power", "W/nm") } else { ("spectral_radiance", "W/m²/sr/nm") };
         Self { frame: Frame::new(name, unit), slicing: None, preview: None }
+    }
+
+    /// With a name of its own for reports, files and statepoints: by it pipelines of one kind are told apart.
+    #[doc(alias = "name")]
+    pub fn named(mut self, name: impl Into<String>) -> Self {
+        self.frame.rename(name.into());
+        self
     }
 
     /// Rewrites a file after every pass, whole at any moment, for a viewer that follows it; what kind of file is
@@ -198,11 +205,13 @@ impl<const POWER: bool> Storable for SpectralPipeline<POWER> {
     const KIND: &'static str = if POWER { "SpectralPowerPipeline" } else { "SpectralRadiancePipeline" };
 
     fn save(&self, saved: Saved, _: &mut SceneWriter) -> Result<Saved, SaveError> {
-        save_preview(self.preview.as_deref(), saved)
+        save_preview(self.preview.as_deref(), saved.text("name", self.frame.name()))
     }
 
     fn load(entry: &Entry<'_>) -> Result<Self, MakeError> {
-        Ok(Self { preview: load_preview(entry)?, ..Self::new() })
+        let mut pipeline = Self { preview: load_preview(entry)?, ..Self::new() };
+        load_name(&mut pipeline.frame, entry)?;
+        Ok(pipeline)
     }
 }
 

@@ -5,13 +5,13 @@ use raysect_optical::{PathSettings, World};
 
 /// What a statepoint knows a scene by.
 ///
-/// A scene that can be saved is known by all that its file would hold, to the last bit. Of one with shapes or materials
-/// of a user's that do not say how they are saved it is known what the tree shows, and place and box of every shape, but
-/// not what the materials do.
+/// A scene that can be saved is known by all that its file would hold, to the last bit. Of shapes, materials and functions
+/// that do not say how they are saved their kinds are known, and place and box of every shape, but not what they do; all
+/// others of the scene are known to the last bit.
 pub(crate) fn scene_fingerprint(world: &World, paths: &PathSettings) -> String {
     let (kind, hash) = match SceneWriter::new(world) {
         Ok(writer) => ("saved form", fnv(writer.to_json().as_bytes())),
-        Err(_) => ("tree and boxes", fnv(facts(world).as_bytes())),
+        Err(_) => ("description", fnv((SceneWriter::describe(world) + &facts(world)).as_bytes())),
     };
     format!("{kind} {hash:016x}, {paths:?}")
 }

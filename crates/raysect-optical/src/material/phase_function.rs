@@ -1,5 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
+use raysect_core::save::{SaveError, Saved, SceneObject, SceneWriter, short_name};
 use raysect_math::{Frame, MathError, Rng, Vector3D};
 
 use crate::OpticalError;
@@ -14,6 +15,23 @@ pub trait PhaseFunction: Send + Sync {
 
     /// Density of [`sample`](Self::sample) [1/sr], which is the phase function itself: it integrates to one.
     fn pdf(&self, incoming: Vector3D, outgoing: Vector3D) -> f64;
+
+    /// What a file needs to know to make it again; see [`raysect_core::save`].
+    ///
+    /// # Errors
+    /// [`SaveError::NotSaved`] by default.
+    fn save(&self, _writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        let kind = short_name(std::any::type_name::<Self>()).to_owned();
+        Err(SaveError::NotSaved { role: "phase function", kind })
+    }
+}
+
+impl SceneObject for dyn PhaseFunction {
+    const ROLE: &'static str = "phase";
+
+    fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
+        PhaseFunction::save(self, writer)
+    }
 }
 
 /// The phase function of L. Henyey and J. Greenstein, *Diffuse radiation in the galaxy*, ApJ 93, 70 (1941):
@@ -68,6 +86,10 @@ impl PhaseFunction for HenyeyGreenstein {
         let base = 1.0 + g * g - 2.0 * g * incoming.dot(outgoing);
         (1.0 - g * g) / (4.0 * PI * base * base.sqrt())
     }
+
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("HenyeyGreenstein").number("asymmetry", self.asymmetry))
+    }
 }
 
 /// Scattering by particles much smaller than the wavelength, unpolarised: p = 3 (1 + cos² θ) / 16π
@@ -87,6 +109,10 @@ impl PhaseFunction for Rayleigh {
     fn pdf(&self, incoming: Vector3D, outgoing: Vector3D) -> f64 {
         let cosine = incoming.dot(outgoing);
         3.0 * (1.0 + cosine * cosine) / (16.0 * PI)
+    }
+
+    fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
+        Ok(Saved::new("Rayleigh"))
     }
 }
 

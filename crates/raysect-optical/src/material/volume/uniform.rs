@@ -70,7 +70,11 @@ impl UniformVolume {
         scattering: impl Into<SpectralTable>,
         phase: impl PhaseFunction + 'static,
     ) -> Self {
-        Self { scattering: Some((scattering.into(), Arc::new(phase))), ..self }
+        self.shared_scattering(scattering.into(), Arc::new(phase))
+    }
+
+    pub(crate) fn shared_scattering(self, scattering: SpectralTable, phase: Arc<dyn PhaseFunction>) -> Self {
+        Self { scattering: Some((scattering, phase)), ..self }
     }
 
     /// How much paths are to be aimed at it, relative to others; 0 for not at all.
@@ -138,17 +142,15 @@ impl Material for UniformVolume {
     }
 
     fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {
-        if self.scattering.is_some() {
-            return Err(SaveError::NotSaved {
-                role: "material",
-                kind: "scattering UniformVolume".to_owned(),
-            });
-        }
         let mut saved = Saved::new("UniformVolume").number("importance", self.importance);
         for (name, table) in [("emission", &self.emission), ("absorption", &self.absorption)] {
             if let Some(table) = table {
                 saved = saved.reference(name, writer.object(table)?);
             }
+        }
+        if let Some((scattering, phase)) = &self.scattering {
+            saved = saved.reference("scattering", writer.object(scattering)?);
+            saved = saved.reference("phase", writer.shared_object(phase)?);
         }
         Ok(saved)
     }
