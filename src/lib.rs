@@ -47,6 +47,7 @@
 //! let stop = Stop::relative_error(0.02).or_after(minutes(10.0));
 //! let report = camera.observe_until(&world, &mut (&mut rgb, &mut power), stop)?;
 //! assert!(report.convergence.is_some_and(|c| c.reached));
+//! println!("{report}");                                // what became of the paths, and what to beware of
 //! println!("{} W", power.frame().total());
 //! # Ok(())
 //! # }

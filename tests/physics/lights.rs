@@ -205,3 +205,25 @@ fn a_ball_lamp_in_the_middle_of_a_white_ball() {
         accept(format!("ball in a ball {sampling:?}"), value, Demand::Mean, &reading);
     }
 }
+
+#[test]
+fn lights_of_unlike_brightness_are_looked_for_by_what_they_give() {
+    // Of two equal balls at equal distances one is a thousand times brighter.
+    let pair = |bright: f64| {
+        let lamp = |x: f64, radiance: f64| {
+            let lamp = raysect::optical::UniformSurfaceEmitter::new(radiance, 1.0);
+            ball([x, 0.3, 1.0], 0.1, lamp)
+        };
+        over_a_plate([lamp(-0.5, bright), lamp(0.5, 1.0)])
+    };
+    let (equal, unlike) = (look(&pair(1.0), Lights, 40_000), look(&pair(1000.0), Lights, 40_000));
+    let relative = |found: &Reading| found.radiance.error() / found.radiance.mean();
+    println!("{} {}", relative(&equal), relative(&unlike));
+    // If both were looked for equally often, half of the samples would see next to nothing: an error of one over the
+    // root of their number.
+    assert!(relative(&unlike) < 0.2 / 200.0, "{}", unlike.radiance);
+    let distance = (0.5f64 * 0.5 + 0.3 * 0.3 + 1.0).sqrt();
+    let each = ball_factor(0.1, distance, distance.recip().acos());
+    accept("unlike lights", 0.7 * each * 1001.0, Demand::Mean, &unlike);
+    accept("equal lights", 0.7 * each * 2.0, Demand::Mean, &equal);
+}

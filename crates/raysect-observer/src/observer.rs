@@ -81,7 +81,7 @@ impl<S: Sensor> fmt::Debug for Observer<S> {
 
 impl<S: Sensor> Observer<S> {
     /// Around a sensor, with 15 bins over 375 … 740 nm, one ray for all of them, 100 samples a pixel, seed 1, all
-    /// processors of this machine, and a progress bar on a terminal.
+    /// processors of this machine, and unless it is quiet a progress bar on a terminal and warnings at the end.
     pub fn with_sensor(sensor: S) -> Self {
         Self {
             sensor,
@@ -232,7 +232,8 @@ impl<S: Sensor> Observer<S> {
         Ok(self.engine(Multicore::with_threads(threads)?))
     }
 
-    /// Without a progress bar.
+    /// Without a progress bar, and without the [warnings](crate::RenderReport::warnings) of the report on the standard error
+    /// stream.
     pub fn quiet(mut self, quiet: bool) -> Self {
         self.quiet = quiet;
         self

@@ -133,7 +133,7 @@ impl RenderReport {
             share(l.truncated, "cut off"),
             share(l.lost, "lost"),
         ];
-        format!("{} paths: {}", l.paths, fates.join(", "))
+        format!("{} paths, {} with light: {}", l.paths, l.collected, fates.join(", "))
     }
 }
 

@@ -1,6 +1,6 @@
 use raysect_math::{MathError, Point3D, Rng, StreamKey, Vector3D};
 
-use crate::{LoggedPath, OpticalError, Path, PathSettings, Scene, Slice, Slicing, Spectrum, World};
+use crate::{Ledger, LoggedPath, OpticalError, Path, PathSettings, Scene, Slice, Slicing, Spectrum, World};
 
 /// A single ray that asks for the spectrum arriving at its origin, without any camera.
 ///
@@ -36,6 +36,10 @@ pub struct SampledSpectrum {
     pub total: raysect_math::Statistics,
     /// How many paths.
     pub samples: u64,
+    /// How many of them had a bin that is not a finite number, and count as zero: a fault in a material.
+    pub invalid: u64,
+    /// What has become of them: what was cut off, lost or left unresolved is missing from the mean.
+    pub ledger: Ledger,
 }
 
 impl Ray {
@@ -92,14 +96,19 @@ impl Ray {
         let slice = &slices[0];
         let mut path = Path::new(scene, slice, &self.settings);
         let mut bins = vec![raysect_math::Statistics::new(); self.bins];
-        let mut total = raysect_math::Statistics::new();
+        let (mut total, mut invalid) = (raysect_math::Statistics::new(), 0);
+        let dark = vec![0.0; self.bins];
         for sample in 0..count {
-            let radiance = path.follow(&self.geometry, self.rng(sample));
+            let mut radiance = path.follow(&self.geometry, self.rng(sample));
+            if radiance.iter().any(|r| !r.is_finite()) {
+                (radiance, invalid) = (&dark, invalid + 1);
+            }
             bins.iter_mut().zip(radiance).for_each(|(s, r)| s.add(*r));
             total.add(radiance.iter().sum::<f64>() * slice.bin_width());
         }
         let mean = Spectrum::from_samples(self.min, self.max, bins.iter().map(|s| s.mean()).collect())?;
-        Ok(SampledSpectrum { mean, error: bins.iter().map(|s| s.error()).collect(), total, samples: count })
+        let error = bins.iter().map(|s| s.error()).collect();
+        Ok(SampledSpectrum { mean, error, total, samples: count, invalid, ledger: *path.ledger() })
     }
 
     /// Follows one of the paths of [`sample`](Self::sample) again, by its number, and notes all that happens to it; number

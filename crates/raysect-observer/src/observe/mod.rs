@@ -157,6 +157,11 @@ impl<'a, S: Sensor> Session<'a, S> {
         self.report.contestants =
             self.report.ledger.contestants.map(|pair| pair.map(|index| self.name_of(index)));
         self.report.readings = self.pipelines.iter().map(|p| Reading::of(&**p, added, elapsed)).collect();
+        drop(self.meter);
+        if !self.observer.is_quiet() {
+            // Whoever does not look at the report is to know all the same.
+            self.report.warnings().iter().for_each(|warning| eprintln!("warning: {warning}"));
+        }
         self.report
     }
 

@@ -9,7 +9,7 @@ pub struct Light {
     /// Its instance in the scene.
     pub instance: u32,
     sampling: SurfaceSampling,
-    sphere: BoundingSphere3D,
+    pub(super) sphere: BoundingSphere3D,
     importance: f64,
     /// Volume of the image of a unit cube: what areas scale with, together with the normal.
     volume_scale: f64,
@@ -53,8 +53,8 @@ impl Light {
         }
     }
 
-    /// How much of the light sampling at a point goes to this light: its importance times the square of the angle
-    /// under which it appears. A light that encloses the point is left to the directions of the surface.
+    /// How much of the light sampling at a point goes to this light, besides its brightness: its importance times the
+    /// square of the angle under which it appears. A light that encloses the point is left to the directions of the surface.
     fn weight(&self, scene: &Scene, at: &Vertex) -> f64 {
         // From a point on a convex light itself there is nothing of it to be seen outside, and all around inside.
         if at.instance == Some(self.instance) && scene.is_convex(self.instance) {
@@ -83,7 +83,7 @@ impl Light {
     }
 
     #[inline]
-    fn sample(
+    pub(super) fn sample(
         &self,
         scene: &Scene,
         from: Point3D,
@@ -135,9 +135,19 @@ impl Light {
     }
 }
 
+/// What of the light sampling at a point goes to all lights together, of a known brightness each.
+fn total_weight(scene: &Scene, brightness: &[f64], at: &Vertex) -> f64 {
+    scene.compiled.lights.iter().zip(brightness).map(|(light, b)| b * light.weight(scene, at)).sum()
+}
+
 /// Draws a light and a direction towards it; none if no light can be sampled from there.
 #[inline]
-pub(crate) fn sample_lights(scene: &Scene, at: &Vertex, rng: &mut Rng) -> Option<LightSample> {
+pub(crate) fn sample_lights(
+    scene: &Scene,
+    brightness: &[f64],
+    at: &Vertex,
+    rng: &mut Rng,
+) -> Option<LightSample> {
     let lights = &scene.compiled.lights;
     if let [light] = &lights[..] {
         if light.weight(scene, at) == 0.0 {
@@ -146,14 +156,14 @@ pub(crate) fn sample_lights(scene: &Scene, at: &Vertex, rng: &mut Rng) -> Option
         let (direction, density, surface) = light.sample(scene, at.point, rng)?;
         return Some(LightSample { light: 0, direction, density, surface });
     }
-    let total: f64 = lights.iter().map(|l| l.weight(scene, at)).sum();
+    let total = total_weight(scene, brightness, at);
     if total.is_nan() || total <= 0.0 {
         return None;
     }
     let mut chosen = None;
     let mut rest = rng.uniform() * total;
-    for (index, light) in lights.iter().enumerate() {
-        let weight = light.weight(scene, at);
+    for (index, (light, brightness)) in lights.iter().zip(brightness).enumerate() {
+        let weight = brightness * light.weight(scene, at);
         if weight > 0.0 {
             chosen = Some((index, weight));
             rest -= weight;
@@ -170,16 +180,17 @@ pub(crate) fn sample_lights(scene: &Scene, at: &Vertex, rng: &mut Rng) -> Option
 /// Density [1/sr] with which [`sample_lights`] finds a point on a light.
 pub(crate) fn light_density(
     scene: &Scene,
+    brightness: &[f64],
     light: u32,
     at: &Vertex,
     direction: Vector3D,
     surface: &SurfacePoint,
 ) -> f64 {
     let lights = &scene.compiled.lights;
-    let weight = lights[light as usize].weight(scene, at);
+    let weight = brightness[light as usize] * lights[light as usize].weight(scene, at);
     if weight == 0.0 {
         return 0.0;
     }
-    let total: f64 = lights.iter().map(|l| l.weight(scene, at)).sum();
-    weight / total * lights[light as usize].density(scene, at.point, direction, surface)
+    weight / total_weight(scene, brightness, at)
+        * lights[light as usize].density(scene, at.point, direction, surface)
 }

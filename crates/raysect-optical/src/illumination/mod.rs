@@ -1,5 +1,6 @@
 //! What a compiled optical scene knows: who emits, what paths are aimed at, who fills volumes.
 
+mod brightness;
 mod light;
 mod targets;
 
@@ -7,6 +8,7 @@ use std::collections::BTreeMap;
 
 use raysect_core::{Instance, SurfaceSampling};
 
+use brightness::Brightness;
 pub use light::{Light, LightSample, Vertex};
 pub(crate) use light::{light_density, sample_lights};
 pub use targets::Targets;
@@ -40,6 +42,8 @@ pub struct Illumination {
     pub facts: Vec<InstanceFacts>,
     /// The emitting surfaces that are sampled by their shape.
     pub lights: Vec<Light>,
+    /// How bright they are, in the bins that paths carry.
+    pub(crate) brightness: Brightness,
     /// What else is important: aimed at through bounding spheres, in the directional density.
     pub targets: Targets,
     /// Everything important, lights included: what Raysect aims at.
@@ -105,6 +109,7 @@ impl Illumination {
             names: known.into_iter().map(|f| f.name).collect(),
             facts,
             lights,
+            brightness: Brightness::default(),
             targets: Targets::new(targets),
             all_targets: Targets::new(all_targets),
         }

@@ -145,7 +145,7 @@ impl<'a> Path<'a> {
         let (point, incoming) = (ray.point_at(distance), ray.direction);
         let vertex = Vertex { point, instance: None };
         if self.looks_for_lights()
-            && let Some(light) = &sample_lights(self.scene, &vertex, &mut self.rng)
+            && let Some(light) = &sample_lights(self.scene, &self.brightness, &vertex, &mut self.rng)
         {
             let scattered = phase.pdf(incoming, light.direction);
             if scattered > 0.0 {

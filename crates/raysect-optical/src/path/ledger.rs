@@ -7,6 +7,8 @@ pub struct Ledger {
     pub rays: u64,
     /// Rays traced towards lights.
     pub shadow_rays: u64,
+    /// Paths that have brought light, wherever they ended.
+    pub collected: u64,
     /// Paths that ended on a surface.
     pub absorbed: u64,
     /// Paths that left the scene.
@@ -33,7 +35,7 @@ pub struct Ledger {
 }
 
 /// How many numbers a ledger is in a block of results.
-pub const LEDGER_NUMBERS: usize = 14;
+pub const LEDGER_NUMBERS: usize = 15;
 
 /// What stands for an instance in a block of results where there is none.
 const NOBODY: f64 = -1.0;
@@ -56,6 +58,7 @@ impl Ledger {
             self.contested as f64,
             self.contestants.map_or(NOBODY, |pair| f64::from(pair[0])),
             self.contestants.map_or(NOBODY, |pair| f64::from(pair[1])),
+            self.collected as f64,
         ]
     }
 
@@ -73,6 +76,7 @@ impl Ledger {
         self.inconsistencies += n[9] as u64;
         self.unresolved += n[10] as u64;
         self.contested += n[11] as u64;
+        self.collected += n[14] as u64;
         if n[12] != NOBODY {
             self.name_contestants([n[12] as u32, n[13] as u32]);
         }

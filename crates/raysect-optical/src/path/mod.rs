@@ -9,6 +9,8 @@ mod media;
 mod scatter;
 mod settings;
 
+use std::sync::Arc;
+
 use raysect_core::{Leaving, Ray, Scratch};
 use raysect_math::{Point3D, Rng, Vector3D};
 
@@ -44,6 +46,8 @@ pub struct Path<'a> {
     settings: &'a PathSettings,
     rng: Rng,
     scratch: Scratch,
+    /// Of each light beside the others.
+    brightness: Arc<[f64]>,
     ledger: Ledger,
     throughput: Vec<f64>,
     radiance: Vec<f64>,
@@ -83,6 +87,7 @@ impl<'a> Path<'a> {
             settings,
             rng: Rng::new(0),
             scratch: Scratch::default(),
+            brightness: scene.compiled.brightness.of(scene, &scene.compiled.lights, slice),
             ledger: Ledger::default(),
             throughput: zeros(),
             radiance: zeros(),
@@ -113,6 +118,7 @@ impl<'a> Path<'a> {
         self.rng = rng;
         self.depth = 0;
         self.run::<false>(ray, &mut PathLog::default());
+        self.count_collected();
         &self.radiance
     }
 
@@ -122,6 +128,7 @@ impl<'a> Path<'a> {
         self.depth = 0;
         let (before, mut log) = (self.ledger, PathLog::default());
         self.run::<true>(ray, &mut log);
+        self.count_collected();
         log.finish(self, &before)
     }
 
@@ -175,16 +182,32 @@ impl<'a> Path<'a> {
     }
 
     /// The radiance that arrives along another ray, into `out`: for the rare material that must look elsewhere.
-    /// It follows one more path, as deep in the recursion as this one, with room of its own.
+    /// It follows one more path, as deep in the recursion as this one, with room of its own; where that would be too deep it
+    /// is counted as cut off.
     pub fn trace(&mut self, ray: &Ray, out: &mut [f64]) {
         let mut other = Path::new(self.scene, self.slice, self.settings);
         other.rng = Rng::new(self.rng.bits());
         other.depth = self.depth + 1;
         if other.depth < self.settings.max_depth {
             other.run::<false>(ray, &mut PathLog::default());
+            other.count_collected();
+        } else {
+            other.ledger.paths += 1;
+            other.ledger.truncated += 1;
+            other.ledger.truncated_throughput += self.mean_throughput();
         }
         out.copy_from_slice(&other.radiance);
-        self.ledger.rays += other.ledger.rays;
+        self.ledger.add_numbers(&other.ledger.to_numbers());
+    }
+
+    /// Notes whether the path at its end has brought light.
+    #[inline]
+    fn count_collected(&mut self) {
+        self.ledger.collected += u64::from(self.radiance.iter().any(|r| *r != 0.0));
+    }
+
+    fn mean_throughput(&self) -> f64 {
+        self.throughput.iter().sum::<f64>() / self.throughput.len() as f64
     }
 
     /// Follows a path to its end. What happens to it goes into the log if it is `LOGGED`, and costs nothing otherwise.
@@ -299,7 +322,14 @@ impl<'a> Path<'a> {
         if facts.emits && material.emit(at, self.context(), &mut self.emitted) {
             let weight = match (facts.light, self.density) {
                 (Some(light), Some(density)) if self.settings.light_sampling == LightSampling::Lights => {
-                    let other = light_density(scene, light, &self.vertex, at.direction, &at.surface);
+                    let other = light_density(
+                        scene,
+                        &self.brightness,
+                        light,
+                        &self.vertex,
+                        at.direction,
+                        &at.surface,
+                    );
                     heuristic(density, other)
                 }
                 _ => 1.0,
@@ -329,9 +359,8 @@ impl<'a> Path<'a> {
             return false;
         }
         if self.depth >= self.settings.max_depth {
-            let mean = self.throughput.iter().sum::<f64>() / self.throughput.len() as f64;
             self.ledger.truncated += 1;
-            self.ledger.truncated_throughput += mean;
+            self.ledger.truncated_throughput += self.mean_throughput();
             return false;
         }
         self.carried *= self.favour;

@@ -29,7 +29,7 @@ impl Path<'_> {
         let incoming = frame.to_local(-hit.direction);
         if self.looks_for_lights() {
             let vertex = Vertex { point: hit.surface.point, instance: Some(hit.surface.instance) };
-            if let Some(light) = &sample_lights(self.scene, &vertex, &mut self.rng) {
+            if let Some(light) = &sample_lights(self.scene, &self.brightness, &vertex, &mut self.rng) {
                 let outgoing = frame.to_local(light.direction);
                 self.evaluate(bsdf, incoming, outgoing);
                 if self.reflected.iter().any(|f| *f > 0.0) {
