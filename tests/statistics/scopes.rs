@@ -107,3 +107,19 @@ fn progress_knows_what_a_resumed_observation_has_left() {
     assert!(!told.is_empty() && told.len() < 10, "{} times", told.len());
     assert!(told.iter().all(|(samples, total)| total >= samples && *total < 1000 * samples), "{told:?}");
 }
+
+#[test]
+fn numbers_of_samples_are_one_for_each_pixel() {
+    let observer = Observer::with_sensor(Shares).wavelengths(500.0, 501.0).spectral_bins(1).quiet(true);
+    let observer = observer.mask(vec![true, true, false]);
+    let (world, mut radiance) = (world(), RadiancePipeline::new());
+    assert!(observer.observe_samples(&world, &mut radiance, &[1, 2]).is_err());
+    for _ in 0..2 {
+        observer.observe_samples(&world, &mut radiance, &[100, 7, 1000]).unwrap();
+    }
+    assert_eq!([0, 1, 2].map(|pixel| radiance.frame().samples(pixel)), [200, 14, 0]);
+    // The same bits as those of one call.
+    let mut once = RadiancePipeline::new();
+    observer.observe_samples(&world, &mut once, &[200, 14, 0]).unwrap();
+    assert_eq!(once.frame().mean(), radiance.frame().mean());
+}

@@ -99,6 +99,14 @@ pub enum ObserverError {
         /// Its number.
         pixel: usize,
     },
+    /// Numbers of samples that are not one for each pixel.
+    #[error("{found} numbers of samples for {pixels} pixels: there must be one for each, row by row")]
+    PixelNumbers {
+        /// How many were given.
+        found: usize,
+        /// How many pixels there are.
+        pixels: usize,
+    },
     /// A sample that an observation does not take.
     #[error(
         "sample {sample} of {samples} a pixel: samples are counted from 0 and must be less than their number; an \

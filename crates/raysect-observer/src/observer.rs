@@ -349,6 +349,42 @@ impl<S: Sensor> Observer<S> {
         Session::new(self, world, pipelines)?.observe_adaptive(adaptive)
     }
 
+    /// Takes so many more samples of each pixel, row by row, for a program that distributes samples by a rule of its own: it
+    /// looks at the frame, decides, and calls again. Masked pixels are left out, whatever their number.
+    ///
+    /// Samples that decide about their own number make an average biased, see [`AdaptiveSampling`]: better decide by the
+    /// frame of another pipeline, seen with another [`seed`](Self::seed).
+    ///
+    /// ```
+    /// # use raysect_math::translate;
+    /// # use raysect_optical::{UniformSurfaceEmitter, WithMaterial, World};
+    /// # use raysect_primitive::Sphere;
+    /// use raysect_observer::{PinholeCamera, RadiancePipeline2D};
+    /// # let mut world = World::new();
+    /// # world.add(Sphere::new(1.0)?.material(UniformSurfaceEmitter::new(1.0, 1.0)))?;
+    /// let camera = PinholeCamera::new((8, 8), 45.0)?.transform(translate(0.0, 0.0, -5.0)).pixel_samples(20);
+    /// let (mut trial, mut radiance) = (RadiancePipeline2D::new(), RadiancePipeline2D::new());
+    /// camera.clone().seed(2).observe(&world, &mut trial)?;
+    /// // Ten times as many where the trial has seen the edge of the lamp.
+    /// let error = trial.frame().error();
+    /// let samples: Vec<u64> = error.iter().map(|e| if *e > 0.0 { 200 } else { 20 }).collect();
+    /// camera.observe_samples(&world, &mut radiance, &samples)?;
+    /// assert_eq!(radiance.frame().total_samples(), samples.iter().sum());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`observe`](Self::observe); [`ObserverError::PixelNumbers`] unless there is a number for each pixel.
+    #[doc(alias = "generate_tasks")]
+    pub fn observe_samples(
+        &self,
+        world: &World,
+        pipelines: &mut (impl Pipelines + ?Sized),
+        samples: &[u64],
+    ) -> Result<RenderReport, ObserverError> {
+        Session::new(self, world, pipelines)?.observe_samples(samples)
+    }
+
     /// The same around another sensor.
     pub(crate) fn try_map<T: Sensor>(
         self,

@@ -5,7 +5,7 @@ use raysect_core::save::{Entry, MakeError, SaveError, Saved, SceneWriter};
 use raysect_math::sampling::uniforms;
 use raysect_math::{
     AffineMatrix3D, Cone, Frame, MathError, Point3D, Rng, SphericalDiskSampler, SphericalRectangleSampler,
-    Vector3D,
+    SphericalTriangleSampler, Vector3D,
 };
 
 use crate::ObserverError;
@@ -20,6 +20,7 @@ pub struct Target(Kind);
 enum Kind {
     Sphere { centre: Point3D, radius: f64 },
     Rectangle { corner: Point3D, edges: [Vector3D; 2] },
+    Triangle { corners: [Point3D; 3] },
     Disk { centre: Point3D, normal: Vector3D, radius: f64 },
     Shape(PlacedShape),
 }
@@ -28,6 +29,7 @@ enum Kind {
 enum Aim {
     Sphere(Frame, Cone),
     Rectangle(SphericalRectangleSampler),
+    Triangle(SphericalTriangleSampler),
     Disk(SphericalDiskSampler),
 }
 
@@ -57,6 +59,22 @@ impl Target {
         let size = edges[0].length().max(edges[1].length());
         SphericalRectangleSampler::new(corner + normal * size, corner, edges)?;
         Ok(Self(Kind::Rectangle { corner, edges }))
+    }
+
+    /// A triangle between three corners [m], in either sense: a facet of something else.
+    ///
+    /// # Errors
+    /// [`ObserverError::Math`] for a corner beyond 1e150 m, and corners in line.
+    pub fn triangle(corners: [Point3D; 3]) -> Result<Self, ObserverError> {
+        let farthest = corners.iter().fold(0.0, |most: f64, corner| most.max(corner.max_abs()));
+        MathError::check(farthest <= 1e150, farthest, "coordinate of a target", "m", "-1e150 … 1e150")?;
+        let edges = [corners[0].vector_to(corners[1]), corners[0].vector_to(corners[2])];
+        let normal = edges[0].cross(edges[1]).normalise()?;
+        // Seen from in front of its middle: what is wrong with the corners comes out here.
+        let middle = corners[0] + (edges[0] + edges[1]) / 3.0;
+        let size = edges[0].length().max(edges[1].length());
+        SphericalTriangleSampler::new(middle + normal * size, corners)?;
+        Ok(Self(Kind::Triangle { corners }))
     }
 
     /// A flat disk around a centre [m], at right angles to a normal of any length, with a radius [m]: a round window, a
@@ -116,6 +134,9 @@ impl Target {
             Kind::Rectangle { corner, edges } => {
                 SphericalRectangleSampler::new(from, corner, edges).ok().map(Aim::Rectangle)
             }
+            Kind::Triangle { corners } => {
+                SphericalTriangleSampler::new(from, corners).ok().map(Aim::Triangle)
+            }
             Kind::Disk { centre, normal, radius } => {
                 SphericalDiskSampler::new(from, centre, normal, radius).ok().map(Aim::Disk)
             }
@@ -123,12 +144,16 @@ impl Target {
         }
     }
 
-    /// Numbers that tell it from others: four of a sphere, nine of a rectangle, seven of a disk.
+    /// Numbers that tell it from others: four of a sphere, nine of a rectangle, seven of a disk; nine of a triangle and
+    /// their number of corners.
     pub(crate) fn numbers(&self) -> Vec<f64> {
         match &self.0 {
             Kind::Sphere { centre, radius } => [&centre.to_array()[..], &[*radius]].concat(),
             Kind::Rectangle { corner, edges: [first, second] } => {
                 [corner.to_array(), first.to_array(), second.to_array()].concat()
+            }
+            Kind::Triangle { corners: [a, b, c] } => {
+                [&a.to_array()[..], &b.to_array(), &c.to_array(), &[3.0]].concat()
             }
             Kind::Disk { centre, normal, radius } => {
                 [&centre.to_array()[..], &normal.to_array(), &[*radius]].concat()
@@ -145,9 +170,13 @@ impl Target {
             [x, y, z, a, b, c, d, e, f] => {
                 Self::rectangle(Point3D::new(x, y, z), [Vector3D::new(a, b, c), Vector3D::new(d, e, f)])
             }
+            [x, y, z, a, b, c, d, e, f, 3.0] => {
+                Self::triangle([Point3D::new(x, y, z), Point3D::new(a, b, c), Point3D::new(d, e, f)])
+            }
             _ => {
                 let count = numbers.len() as f64;
-                let (name, range) = ("numbers of a target", "4 of a sphere, 7 of a disk, 9 of a rectangle");
+                let (name, range) =
+                    ("numbers of a target", "4 of a sphere, 7 of a disk, 9 of a rectangle, 10 of a triangle");
                 Err(MathError::OutOfRange { value: count, name, unit: "", range }.into())
             }
         }
@@ -190,6 +219,7 @@ impl Aim {
         match self {
             Self::Sphere(frame, cone) => frame.to_world(cone.sample_at(u)),
             Self::Rectangle(rectangle) => rectangle.sample_at(u),
+            Self::Triangle(triangle) => triangle.sample_at(u),
             Self::Disk(disk) => disk.sample_at(u),
         }
     }
@@ -207,6 +237,7 @@ impl Aim {
                 if inside { 1.0 / cone.solid_angle() } else { 0.0 }
             }
             Self::Rectangle(rectangle) => rectangle.pdf(direction),
+            Self::Triangle(triangle) => triangle.pdf(direction),
             Self::Disk(disk) => disk.pdf(direction),
         }
     }

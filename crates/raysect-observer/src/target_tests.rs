@@ -17,11 +17,17 @@ fn shape(shape: impl Primitive) -> Target {
     Target::shape(&shape, place()).unwrap()
 }
 
-fn flat() -> [Target; 3] {
+fn facet() -> Target {
+    Target::triangle([Point3D::new(-0.3, 0.0, 2.0), Point3D::new(0.5, 0.1, 2.0), Point3D::new(0.0, 0.7, 2.0)])
+        .unwrap()
+}
+
+fn flat() -> [Target; 4] {
     [
         Target::sphere(Point3D::new(1.0, 2.0, 3.0), 0.5).unwrap(),
         Target::rectangle(Point3D::new(1.0, 0.0, 2.0), [Vector3D::X, Vector3D::Y * 0.1]).unwrap(),
         Target::disk(Point3D::new(0.3, 0.0, 2.0), Vector3D::new(0.0, 0.1, 1.0), 0.4).unwrap(),
+        facet(),
     ]
 }
 
@@ -49,7 +55,7 @@ fn directions_meet_the_target_and_have_a_density() {
 
 #[test]
 fn from_inside_and_in_the_plane_of_what_is_flat_nothing_is_aimed_at() {
-    let [ball, port, window] = flat();
+    let [ball, port, window, facet] = flat();
     let unseen = |target: &Target, x, y, z| {
         let from = Point3D::new(x, y, z);
         let drawn = target.sample(from, &mut Rng::new(1)).is_some();
@@ -57,6 +63,7 @@ fn from_inside_and_in_the_plane_of_what_is_flat_nothing_is_aimed_at() {
         !drawn
     };
     assert!(unseen(&ball, 1.0, 2.1, 3.0) && unseen(&port, 0.0, 5.0, 2.0) && unseen(&window, 5.0, 0.0, 2.0));
+    assert!(unseen(&facet, 5.0, 0.0, 2.0) && !unseen(&facet, 5.0, 0.0, 2.1));
     let cube: Arc<dyn Primitive> = Arc::new(Cuboid::centred(2.0, 2.0, 2.0).unwrap());
     let cube = Target::shape(&cube, AffineMatrix3D::IDENTITY).unwrap();
     assert!(unseen(&cube, 0.9, 0.9, 0.9) && !unseen(&cube, 1.1, 0.9, 0.9));

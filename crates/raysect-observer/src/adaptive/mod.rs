@@ -45,12 +45,7 @@ use crate::{Frame, ObserverError};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[doc(alias(
-    "FrameSampler1D",
-    "FrameSampler2D",
-    "MaskedMonoAdaptiveSampler2D",
-    "MaskedRGBAdaptiveSampler2D"
-))]
+#[doc(alias("MaskedMonoAdaptiveSampler2D", "MaskedRGBAdaptiveSampler2D"))]
 pub struct AdaptiveSampling {
     /// Of a pixel, in the mean over those observed.
     samples: u64,

@@ -23,6 +23,21 @@ impl<S: Sensor> Session<'_, S> {
         Ok(self.finish())
     }
 
+    /// Takes a number of more samples of each pixel.
+    pub(crate) fn observe_samples(mut self, samples: &[u64]) -> Result<RenderReport, ObserverError> {
+        let pixels = self.mask.len();
+        if samples.len() != pixels {
+            return Err(ObserverError::PixelNumbers { found: samples.len(), pixels });
+        }
+        let (frame, lane) = (self.pipelines[0].frame(), self.observer.lane_number());
+        let goals: Vec<u64> =
+            (0..pixels).map(|p| frame.lane_samples(lane, p).saturating_add(samples[p])).collect();
+        self.meter.foresee(self.observed().map(|p| samples[p]).sum());
+        let most = self.observed().map(|p| samples[p]).max().unwrap_or(0);
+        self.take_below(most, &|pixel| goals[pixel], None)?;
+        Ok(self.finish())
+    }
+
     /// How many samples each pixel is to have, by a pilot alone: no sample that counts has any influence.
     fn decide(&mut self, sampling: &AdaptiveSampling) -> Result<Vec<u64>, ObserverError> {
         let lane = self.observer.lane_number();

@@ -5,8 +5,9 @@ use crate::{OpticalError, Path, Slice, SpectralFunction, SpectralTable};
 
 /// A smooth transparent solid: Fresnel reflection and refraction at its surface, absorption inside.
 ///
-/// One path is either reflected or refracted, by the unpolarised Fresnel reflectance. The index is the mean over
-/// the slice of the spectrum that the path carries. Radiance changes by the square of the ratio of the indices, so
+/// One path is either reflected or refracted, by the unpolarised Fresnel reflectance. Where the index depends on the
+/// wavelength a path keeps one of its bins and a wavelength in it, unless the mean over its slice is asked for
+/// ([`Dispersion`](crate::Dispersion)). Radiance changes by the square of the ratio of the indices, so
 /// that L/n² is kept.
 ///
 /// Solids may overlap or touch: the one of higher [priority](Self::priority) counts.
