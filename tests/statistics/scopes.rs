@@ -111,7 +111,7 @@ fn progress_knows_what_a_resumed_observation_has_left() {
 #[test]
 fn numbers_of_samples_are_one_for_each_pixel() {
     let observer = Observer::with_sensor(Shares).wavelengths(500.0, 501.0).spectral_bins(1).quiet(true);
-    let observer = observer.mask(vec![true, true, false]);
+    let observer = observer.mask(vec![true, true, false]).unwrap();
     let (world, mut radiance) = (world(), RadiancePipeline::new());
     assert!(observer.observe_samples(&world, &mut radiance, &[1, 2]).is_err());
     for _ in 0..2 {
