@@ -369,7 +369,7 @@ impl<S: Sensor> Observer<S> {
     /// let error = trial.frame().error();
     /// let samples: Vec<u64> = error.iter().map(|e| if *e > 0.0 { 200 } else { 20 }).collect();
     /// camera.observe_samples(&world, &mut radiance, &samples)?;
-    /// assert_eq!(radiance.frame().total_samples(), samples.iter().sum());
+    /// assert_eq!(radiance.frame().total_samples(), samples.iter().sum::<u64>());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
