@@ -1,5 +1,6 @@
 //! The contract of a shape.
 
+use std::any::Any;
 use std::sync::Arc;
 
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D, Vector3D};
@@ -153,7 +154,7 @@ impl Scratch {
 /// - `hit`, `hit_after` and `crossings_within` report what `crossings` reports.
 /// - `contains` agrees with the parity of the crossings.
 /// - The bounding box contains every surface point, under every affine map.
-pub trait Primitive: Send + Sync + 'static {
+pub trait Primitive: Any + Send + Sync {
     /// A tight box around the image of the shape under `m`, rounded outward.
     fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D;
 

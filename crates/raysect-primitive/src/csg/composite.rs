@@ -8,6 +8,7 @@ use raysect_core::{
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
 use super::Operand;
+use super::flat::Flat;
 use super::operand::{Member, Probe};
 use super::tie::{EXAMINED, TieRule};
 use crate::PrimitiveError;
@@ -25,7 +26,7 @@ pub(super) enum Operation {
 }
 
 impl Operation {
-    fn apply(self, in_a: bool, in_b: bool) -> bool {
+    pub(super) fn apply(self, in_a: bool, in_b: bool) -> bool {
         match self {
             Self::Union => in_a || in_b,
             Self::Intersect => in_a && in_b,
@@ -75,6 +76,8 @@ pub(super) struct Composite {
     bounds: BoundingBox3D,
     /// Boxes that a line must meet for either operand to matter, where to ask saves time.
     tests: [Option<Slabs>; 2],
+    /// The leaves, if they are few and convex.
+    pub(super) flat: Option<Flat>,
     /// Off in tests that show what it is good for.
     #[cfg(test)]
     pub(super) ties: bool,
@@ -100,6 +103,7 @@ impl Composite {
             convex,
             bounds: BoundingBox3D::EMPTY,
             tests: [None; 2],
+            flat: Flat::made_of(operation, &a, &b),
             a,
             b,
             #[cfg(test)]
@@ -108,6 +112,11 @@ impl Composite {
         composite.bounds = composite.combined_box(&AffineMatrix3D::IDENTITY);
         composite.tests = composite.box_tests();
         Ok(composite)
+    }
+
+    #[cfg(test)]
+    pub(super) fn operation(&self) -> Operation {
+        self.operation
     }
 
     /// See `tests`.
@@ -303,6 +312,11 @@ impl Primitive for Composite {
     }
 
     fn crossings_within(&self, ray: &Ray, within: Interval, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
+        let before = out.len();
+        if self.flat.as_ref().is_some_and(|flat| flat.crossings(ray, out)) {
+            return;
+        }
+        out.truncate(before);
         self.visit(ray, within, scratch, |crossing| {
             out.push(crossing);
             ControlFlow::Continue(())
@@ -310,6 +324,9 @@ impl Primitive for Composite {
     }
 
     fn hit(&self, ray: &Ray, within: Interval, scratch: &mut Scratch) -> Option<Crossing> {
+        if let Some(found) = self.flat.as_ref().and_then(|flat| flat.hit(ray, within)) {
+            return found;
+        }
         let mut first = None;
         self.visit(ray, within, scratch, |crossing| {
             if within.contains(crossing.distance) {
