@@ -102,11 +102,17 @@ impl Cone {
         smaller(p.z, (self.height - p.z) * self.sine - rho * self.cosine)
     }
 
+    /// As [`passage`](Self::passage), unless the line is outside of the side for all its length.
+    #[inline]
+    fn passage_that_meets(&self, ray: &Ray) -> Option<Passage> {
+        let near = NearTip::new(ray, self.height);
+        Some(near.above_base(self.side(&near).that_meets()?))
+    }
+
     /// What of a line is within.
     #[inline]
     pub(crate) fn chord(&self, ray: &Ray) -> Option<Chord> {
-        let near = NearTip::new(ray, self.height);
-        near.above_base(self.side(&near).that_meets()?).chord()
+        self.passage_that_meets(ray)?.chord()
     }
 
     /// Within the endless cone below the apex, ρ ≤ k w with w counted downwards from the apex.
@@ -214,7 +220,7 @@ impl Primitive for Cone {
 
     #[inline]
     fn hit(&self, ray: &Ray, within: Interval, _: &mut Scratch) -> Option<Crossing> {
-        self.chord(ray)?.first(within)
+        self.passage_that_meets(ray)?.first(within)
     }
 
     fn hit_after(&self, ray: &Ray, left: &Departure, max_distance: f64, _: &mut Scratch) -> Option<Crossing> {

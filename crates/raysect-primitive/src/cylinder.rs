@@ -182,7 +182,7 @@ impl Primitive for Cylinder {
 
     #[inline]
     fn hit(&self, ray: &Ray, within: Interval, _: &mut Scratch) -> Option<Crossing> {
-        self.chord(ray)?.first(within)
+        self.between_ends(self.side(ray).that_meets()?, ray).first(within)
     }
 
     fn hit_after(&self, ray: &Ray, left: &Departure, max_distance: f64, _: &mut Scratch) -> Option<Crossing> {

@@ -113,11 +113,17 @@ impl Parabola {
         near.above_base(self.side(&near))
     }
 
+    /// As [`passage`](Self::passage), unless the line is outside of the side for all its length.
+    #[inline]
+    fn passage_that_meets(&self, ray: &Ray) -> Option<Passage> {
+        let near = NearTip::new(ray, self.height);
+        Some(near.above_base(self.side(&near).that_meets()?))
+    }
+
     /// What of a line is within.
     #[inline]
     pub(crate) fn chord(&self, ray: &Ray) -> Option<Chord> {
-        let near = NearTip::new(ray, self.height);
-        near.above_base(self.side(&near).that_meets()?).chord()
+        self.passage_that_meets(ray)?.chord()
     }
 
     /// Within the endless paraboloid ρ² ≤ p w, with w counted downwards from the vertex.
@@ -223,7 +229,7 @@ impl Primitive for Parabola {
 
     #[inline]
     fn hit(&self, ray: &Ray, within: Interval, _: &mut Scratch) -> Option<Crossing> {
-        self.chord(ray)?.first(within)
+        self.passage_that_meets(ray)?.first(within)
     }
 
     fn hit_after(&self, ray: &Ray, left: &Departure, max_distance: f64, _: &mut Scratch) -> Option<Crossing> {

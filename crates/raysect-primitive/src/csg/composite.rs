@@ -48,6 +48,9 @@ impl Operation {
     }
 }
 
+/// All distances.
+const LINE: Interval = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
+
 /// A body made of two others.
 ///
 /// Both operands report all crossings of the whole line, on one scale of distances. Outside both at minus infinity, the
@@ -59,10 +62,13 @@ impl Operation {
 /// takes at most one crossing of each operand, and where two of them change the value, both change it in
 /// the same sense.
 ///
+/// Composites of few convex leaves look at the ends of all chords at once, which is the same wherever no two crossings
+/// are so close to each other that they might be one event; see [`Flat`].
+///
 /// This regularises the result (A. Requicha, *Representations for Rigid Solids*, ACM Computing Surveys 12, 1980).
 #[derive(Clone)]
 pub(super) struct Composite {
-    operation: Operation,
+    pub(super) operation: Operation,
     /// The same as bits; see [`Operation::truth`].
     truth: u8,
     pub(super) a: Member,
@@ -103,7 +109,7 @@ impl Composite {
             convex,
             bounds: BoundingBox3D::EMPTY,
             tests: [None; 2],
-            flat: Flat::made_of(operation, &a, &b),
+            flat: None,
             a,
             b,
             #[cfg(test)]
@@ -111,12 +117,8 @@ impl Composite {
         };
         composite.bounds = composite.combined_box(&AffineMatrix3D::IDENTITY);
         composite.tests = composite.box_tests();
+        composite.flat = Flat::made_of(operation, &composite.a, &composite.b, &composite.bounds);
         Ok(composite)
-    }
-
-    #[cfg(test)]
-    pub(super) fn operation(&self) -> Operation {
-        self.operation
     }
 
     /// See `tests`.
@@ -156,6 +158,14 @@ impl Composite {
             .min_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs()));
         scratch.give_back(both);
         nearest.map(|c| Crossing { distance: 0.0, ..c })
+    }
+
+    /// Appends the crossings as the operands tell them.
+    fn merged(&self, ray: &Ray, within: Interval, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
+        self.visit(ray, within, scratch, |crossing| {
+            out.push(crossing);
+            ControlFlow::Continue(())
+        });
     }
 
     /// Lends the crossings of the composite one by one, in order: all that lie in an interval, and such others that what
@@ -307,20 +317,13 @@ impl Primitive for Composite {
     }
 
     fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
-        let line = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
-        self.crossings_within(ray, line, scratch, out);
+        self.crossings_within(ray, LINE, scratch, out);
     }
 
     fn crossings_within(&self, ray: &Ray, within: Interval, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
-        let before = out.len();
-        if self.flat.as_ref().is_some_and(|flat| flat.crossings(ray, out)) {
-            return;
+        if !self.flat.as_ref().is_some_and(|flat| flat.list(ray, LINE, f64::INFINITY, out)) {
+            self.merged(ray, within, scratch, out);
         }
-        out.truncate(before);
-        self.visit(ray, within, scratch, |crossing| {
-            out.push(crossing);
-            ControlFlow::Continue(())
-        });
     }
 
     fn hit(&self, ray: &Ray, within: Interval, scratch: &mut Scratch) -> Option<Crossing> {
@@ -348,7 +351,11 @@ impl Primitive for Composite {
         scratch: &mut Scratch,
     ) -> Option<Crossing> {
         let mut all = scratch.take();
-        self.crossings(ray, scratch, &mut all);
+        // One of these is being left, and another one follows it.
+        let (ahead, bound) = (Interval::new(-departure.bound, f64::INFINITY), departure.bound);
+        if !self.flat.as_ref().is_some_and(|flat| flat.list(ray, ahead, bound, &mut all)) {
+            self.merged(ray, LINE, scratch, &mut all);
+        }
         let steepness = |c: &Crossing| self.surface(ray, c).normal.dot(ray.direction).abs();
         let left = departure.left_among(all.iter().copied(), steepness);
         let next = match left {

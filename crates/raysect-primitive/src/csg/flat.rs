@@ -1,13 +1,14 @@
 use std::ops::ControlFlow;
 
-use raysect_core::{Crossing, Interval, Ray};
+use raysect_core::accel::{Slabs, slabs};
+use raysect_core::{BoundingBox3D, Crossing, Interval, Ray};
 
 use super::composite::Operation;
 use super::leaf::{Leaf, known, unwrapped};
 use super::operand::Member;
 use super::tie::EXAMINED;
 use super::truth::{LEAVES, Truth};
-use super::walk::{Walk, greatest};
+use super::walk::Walk;
 use super::{Intersect, Subtract, Union};
 use crate::select::larger;
 
@@ -23,9 +24,11 @@ pub(super) struct Flat {
     /// Leaves that the body is within, as bits, and the others.
     pub(super) needed: u32,
     pub(super) others: u32,
+    /// Box around the body if it is not within any of its leaves, one of which would tell as soon which lines pass it by.
+    pub(super) bounds: Option<Slabs>,
     /// How far apart crossings may be that a tie rule looks at, times the greatest component of the direction: a part of
     /// the greatest coordinate of the origin, and a length [m].
-    close: [f64; 2],
+    pub(super) close: [f64; 2],
     /// Greatest coordinate of any leaf [m].
     reach: f64,
 }
@@ -50,6 +53,7 @@ impl Flat {
                     truth: Truth::of(0),
                     needed: 1,
                     others: 0,
+                    bounds: None,
                     close: [0.0; 2],
                     reach: member.reach,
                 });
@@ -60,8 +64,13 @@ impl Flat {
         Some(flat)
     }
 
-    /// What is made of two operands.
-    pub(super) fn made_of(operation: Operation, a: &Member, b: &Member) -> Option<Self> {
+    /// What is made of two operands, which lies in a box.
+    pub(super) fn made_of(
+        operation: Operation,
+        a: &Member,
+        b: &Member,
+        bounds: &BoundingBox3D,
+    ) -> Option<Self> {
         let (a, b) = (Self::of(a)?, Self::of(b)?);
         let count = a.leaves.len();
         if count + b.leaves.len() > LEAVES {
@@ -77,19 +86,17 @@ impl Flat {
         let leaves: Vec<_> = a.leaves.into_iter().chain(b.leaves).collect();
         let needed: u32 = (0..leaves.len()).filter(|&leaf| truth.is_within(leaf)).map(|leaf| 1 << leaf).sum();
         let others = ((1 << leaves.len()) - 1) & !needed;
-        Some(Self { leaves, truth, needed, others, close, reach })
-    }
-
-    /// How far apart crossings may be that a tie rule looks at, in units of the greatest component of the direction.
-    #[inline(always)]
-    pub(super) fn close_length(&self, ray: &Ray) -> f64 {
-        self.close[0] * greatest(ray.origin.to_array()) + self.close[1]
+        let bounds = (needed == 0).then(|| slabs(bounds));
+        Some(Self { leaves, truth, needed, others, bounds, close, reach })
     }
 
     /// The first crossing within an interval; nothing if a tie rule may have to decide.
     #[inline]
     pub(super) fn hit(&self, ray: &Ray, within: Interval) -> Option<Option<Crossing>> {
-        let Some(mut walk) = Walk::new(self, ray, within)? else { return Some(None) };
+        let mut walk = Walk::new(self, ray, within)?;
+        if !walk.meets() {
+            return Some(None);
+        }
         if let Some(found) = walk.entry(within) {
             return Some(found);
         }
@@ -101,17 +108,20 @@ impl Flat {
         decided.then_some(first)
     }
 
-    /// Appends all crossings. False if a tie rule may have to decide; then there are none, or not all.
-    pub(super) fn crossings(&self, ray: &Ray, out: &mut Vec<Crossing>) -> bool {
-        let line = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
-        match Walk::new(self, ray, line) {
-            None => false,
-            Some(None) => true,
-            Some(Some(mut walk)) => walk.visit(line, |crossing| {
-                out.push(crossing);
-                ControlFlow::Continue(())
-            }),
+    /// Appends the crossings within an interval, in order, as far as the first one beyond `enough`. False, and nothing is
+    /// appended, if a tie rule may have to decide.
+    pub(super) fn list(&self, ray: &Ray, within: Interval, enough: f64, out: &mut Vec<Crossing>) -> bool {
+        let before = out.len();
+        let push = |crossing: Crossing| {
+            out.push(crossing);
+            if crossing.distance > enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let decided =
+            Walk::new(self, ray, within).is_some_and(|mut walk| !walk.meets() || walk.visit(within, push));
+        if !decided {
+            out.truncate(before);
         }
+        decided
     }
 }
 

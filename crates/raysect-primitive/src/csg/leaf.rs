@@ -1,10 +1,11 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use raysect_core::{Primitive, Ray};
+use raysect_core::accel::{Slabs, slabs};
+use raysect_core::{BoundingBox3D, Primitive, Ray};
 use raysect_math::{AffineMatrix3D, Point3D};
 
-use super::operand::{moved, norm};
+use super::operand::{Probe, moved, norm};
 use crate::chord::Chord;
 use crate::{Cone, Cuboid, Cylinder, Parabola, Sphere};
 
@@ -27,6 +28,9 @@ pub(super) struct Leaf {
     /// bit.
     to_local: Option<AffineMatrix3D>,
     before: Vec<AffineMatrix3D>,
+    /// Around it in the space of the composite, if it is not there already: to move a line takes longer than to test a box.
+    bounds: Option<BoundingBox3D>,
+    tested: Option<Slabs>,
     /// By how much the maps together stretch the greatest component of a vector, at most.
     stretch: f64,
 }
@@ -54,17 +58,28 @@ impl Leaf {
             .or_else(|| known(shape).map(|s| Convex::Cylinder(*s)))
             .or_else(|| known(shape).map(|s| Convex::Cone(*s)))
             .or_else(|| known(shape).map(|s| Convex::Parabola(*s)))?;
-        Some(Self { shape, to_local: None, before: Vec::new(), stretch: 1.0 })
+        Some(Self { shape, to_local: None, before: Vec::new(), bounds: None, tested: None, stretch: 1.0 })
     }
 
-    /// The same as a composite knows it that places the one it belonged to by the inverse of `to_local`.
-    pub(super) fn below(mut self, to_local: &AffineMatrix3D) -> Self {
+    /// The same as a composite knows it that places the one it belonged to, by a map and its inverse.
+    pub(super) fn below(mut self, to_parent: &AffineMatrix3D, to_local: &AffineMatrix3D) -> Self {
+        let bounds = match self.bounds {
+            None => self.shape.as_primitive().bounding_box(to_parent),
+            Some(bounds) => bounds.transformed(to_parent),
+        };
+        (self.bounds, self.tested) = (Some(bounds), Some(slabs(&bounds)));
         match self.to_local {
             None => self.to_local = Some(*to_local),
             Some(_) => self.before.insert(0, *to_local),
         }
         self.stretch *= norm(to_local);
         self
+    }
+
+    /// False if a line certainly passes it by between two distances, as far as that is soon said.
+    #[inline(always)]
+    pub(super) fn may_meet(&self, probe: &Probe, first: f64, last: f64) -> bool {
+        self.tested.as_ref().is_none_or(|bounds| probe.meets(bounds, first, last))
     }
 
     /// What of a line is within.
@@ -97,6 +112,16 @@ impl Leaf {
 }
 
 impl Convex {
+    fn as_primitive(&self) -> &dyn Primitive {
+        match self {
+            Self::Sphere(shape) => shape,
+            Self::Cuboid(shape) => shape,
+            Self::Cylinder(shape) => shape,
+            Self::Cone(shape) => shape,
+            Self::Parabola(shape) => shape,
+        }
+    }
+
     #[inline]
     fn chord(&self, ray: &Ray) -> Option<Chord> {
         match self {
@@ -162,9 +187,10 @@ mod tests {
         );
         for shape in shapes() {
             let plain = Leaf::of(&*shape).unwrap();
-            let placed =
-                plain.clone().below(&uneven).below(&(translate(0.1, 0.2, -0.1) * rotate(20.0, 30.0, 40.0)));
-            let both = uneven * (translate(0.1, 0.2, -0.1) * rotate(20.0, 30.0, 40.0));
+            let turned = translate(0.1, 0.2, -0.1) * rotate(20.0, 30.0, 40.0);
+            let (out, back) = (uneven.inverse().unwrap(), turned.inverse().unwrap());
+            let placed = plain.clone().below(&out, &uneven).below(&back, &turned);
+            let both = uneven * turned;
             let silent = shape.kind().contains("Parabola");
             for (leaf, to_local) in [(plain, AffineMatrix3D::IDENTITY), (placed, both)] {
                 // A map may stretch the length of a vector by √3 times as much as its greatest component.
@@ -181,7 +207,7 @@ mod tests {
         let m = translate(0.1, 0.2, -0.1) * rotate(20.0, 30.0, 40.0);
         let mut rng = Rng::new(62);
         for shape in shapes() {
-            let leaf = Leaf::of(&*shape).unwrap().below(&m);
+            let leaf = Leaf::of(&*shape).unwrap().below(&m.inverse().unwrap(), &m);
             let mut met = 0;
             for _ in 0..1000 {
                 let from = Point3D::ORIGIN + SphereSampler.sample(&mut rng) * 3.0;

@@ -121,7 +121,7 @@ impl Member {
 
     /// A leaf of the operand in the space of the composite.
     pub(super) fn placed_leaf(&self, leaf: Leaf) -> Leaf {
-        if self.in_place { leaf } else { leaf.below(&self.to_local) }
+        if self.in_place { leaf } else { leaf.below(&self.to_parent, &self.to_local) }
     }
 
     /// In the space of the composite, a part of the greatest coordinate of a ray's origin and a length, over the greatest

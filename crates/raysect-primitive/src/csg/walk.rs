@@ -1,8 +1,10 @@
 use std::ops::ControlFlow;
 
 use raysect_core::{Crossing, Feature, Interval, Ray};
+use raysect_math::Point3D;
 
 use super::flat::Flat;
+use super::operand::Probe;
 use super::truth::{LEAVES, Truth};
 use crate::select::{larger, smaller};
 
@@ -12,6 +14,8 @@ pub(super) struct Walk<'a> {
     ray: &'a Ray,
     /// Crossings that are nearer to each other may be one event.
     close: f64,
+    /// How far a coordinate changes at most between such crossings [m].
+    margin: f64,
     /// Where nothing is left to be found before and behind.
     first: f64,
     last: f64,
@@ -27,18 +31,19 @@ pub(super) struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    /// With the chords of the leaves that the body is within. Nothing if numbers overflow, nothing within if the line does
-    /// not meet the body in the interval.
+    /// Before any leaf has been asked. Nothing if numbers overflow.
     #[inline]
-    pub(super) fn new(flat: &'a Flat, ray: &'a Ray, within: Interval) -> Option<Option<Self>> {
-        let close = flat.close_length(ray) / greatest(ray.direction.to_array());
+    pub(super) fn new(flat: &'a Flat, ray: &'a Ray, within: Interval) -> Option<Self> {
+        let margin = flat.close[0] * greatest(ray.origin.to_array()) + flat.close[1];
+        let close = margin / greatest(ray.direction.to_array());
         if close.is_nan() || close == f64::INFINITY {
             return None;
         }
-        let mut walk = Self {
+        Some(Self {
             flat,
             ray,
             close,
+            margin,
             first: within.min - close,
             last: within.max + close,
             ends: [[f64::INFINITY; 2]; LEAVES],
@@ -47,22 +52,27 @@ impl<'a> Walk<'a> {
             entry: (f64::NEG_INFINITY, 0),
             before: f64::NEG_INFINITY,
             exit: f64::INFINITY,
-        };
-        let mut needed = flat.needed;
+        })
+    }
+
+    /// Asks the leaves that the body is within. False if the line does not meet the body in the interval.
+    #[inline(always)]
+    pub(super) fn meets(&mut self) -> bool {
+        let mut needed = self.flat.needed;
         while needed != 0 {
             let number = needed.trailing_zeros() as usize;
             needed &= needed - 1;
-            if !walk.ask(number) {
-                return Some(None);
+            if !self.ask(number) {
+                return false;
             }
-            let [near, far] = walk.ends[number];
-            walk.before = larger(walk.before, smaller(near, walk.entry.0));
-            walk.entry = if near > walk.entry.0 { (near, number) } else { walk.entry };
-            walk.exit = smaller(walk.exit, far);
-            walk.first = larger(walk.first, near - close);
-            walk.last = smaller(walk.last, far + close);
+            let [near, far] = self.ends[number];
+            self.before = larger(self.before, smaller(near, self.entry.0));
+            self.entry = if near > self.entry.0 { (near, number) } else { self.entry };
+            self.exit = smaller(self.exit, far);
+            self.first = larger(self.first, near - self.close);
+            self.last = smaller(self.last, far + self.close);
         }
-        Some(Some(walk))
+        true
     }
 
     /// Asks a leaf for its chord. False if it has none that matters.
@@ -76,19 +86,19 @@ impl<'a> Walk<'a> {
     }
 
     #[inline]
-    fn crossing(&self, distance: f64, leaf: usize, leaves: bool, exiting: bool) -> Crossing {
-        let face = self.faces[leaf][usize::from(leaves)];
+    fn crossing(&self, distance: f64, leaf: usize, by_exit: bool, exiting: bool) -> Crossing {
+        let face = self.faces[leaf][usize::from(by_exit)];
         Crossing { distance, feature: Feature { part: leaf as u32, face, ..Feature::default() }, exiting }
     }
 
-    /// The first crossing within an interval, if it can be told from the leaves that are met there: the ray enters all that
-    /// the body is within, and passes through those that the body is beside. Of most others it is enough to know on which
-    /// side they have that place.
+    /// The first crossing within an interval, if it can be told soon: where the line has entered all leaves that the body is
+    /// within, or where it comes out of one that the body is beside. Of the other leaves it is enough to know on which side
+    /// they have that place; their chords are not asked for.
     #[inline]
     pub(super) fn entry(&mut self, within: Interval) -> Option<Option<Crossing>> {
         let close = self.close;
         let (mut t, mut leaf) = self.entry;
-        let mut leaves = false;
+        let mut by_exit = false;
         if !(t - within.min > close && t - self.before > close) {
             return None;
         }
@@ -104,7 +114,7 @@ impl<'a> Walk<'a> {
             while others != 0 {
                 let number = others.trailing_zeros() as usize;
                 others &= others - 1;
-                if leaves && number == leaf {
+                if by_exit && number == leaf {
                     continue;
                 }
                 if self.is_inside(number, t, place)? {
@@ -117,20 +127,20 @@ impl<'a> Walk<'a> {
                         if far - t <= close {
                             return None;
                         }
-                        (t, leaf, leaves) = (far, number, true);
+                        (t, leaf, by_exit) = (far, number, true);
                         continue 'passed;
                     }
                 }
             }
-            return self.flat.truth.is_inside(state).then(|| Some(self.crossing(t, leaf, leaves, false)));
+            return self.flat.truth.is_inside(state).then(|| Some(self.crossing(t, leaf, by_exit, false)));
         }
     }
 
     /// If a place on the line is inside of a leaf. Nothing if an end of its chord is close to it.
     #[inline(always)]
-    fn is_inside(&self, number: usize, t: f64, place: raysect_math::Point3D) -> Option<bool> {
+    fn is_inside(&self, number: usize, t: f64, place: Point3D) -> Option<bool> {
         if self.missing >> number & 1 != 0 {
-            return self.flat.leaves[number].is_inside(place, 2.0 * self.flat.close_length(self.ray));
+            return self.flat.leaves[number].is_inside(place, 2.0 * self.margin);
         }
         let [near, far] = self.ends[number];
         let apart = (near - t).abs() > self.close && (far - t).abs() > self.close;
@@ -138,13 +148,17 @@ impl<'a> Walk<'a> {
     }
 
     /// Lends the crossings within an interval one by one, in order, as long as they are wanted. False if a tie rule may have
-    /// to decide: what has been lent is right, but there may be more.
+    /// to decide: then some may be missing.
     #[inline]
     pub(super) fn visit(
         &mut self,
         within: Interval,
         mut emit: impl FnMut(Crossing) -> ControlFlow<()>,
     ) -> bool {
+        let probe = Probe::new(self.ray);
+        if self.flat.bounds.as_ref().is_some_and(|bounds| !probe.meets(bounds, self.first, self.last)) {
+            return true;
+        }
         let mut truth = self.flat.truth;
         let mut others = self.flat.others;
         while others != 0 {
@@ -152,7 +166,9 @@ impl<'a> Walk<'a> {
             others &= others - 1;
             if !truth.depends_on(number) {
                 self.ends[number] = [f64::INFINITY; 2];
-            } else if self.missing >> number & 1 != 0 && !self.ask(number) {
+            } else if self.missing >> number & 1 != 0
+                && !(self.flat.leaves[number].may_meet(&probe, self.first, self.last) && self.ask(number))
+            {
                 self.ends[number] = [f64::INFINITY; 2];
                 truth = truth.outside_of(number);
                 if truth.is_constant() {
@@ -201,7 +217,7 @@ impl<'a> Walk<'a> {
 
 /// The greatest magnitude.
 #[inline(always)]
-pub(super) fn greatest([x, y, z]: [f64; 3]) -> f64 {
+fn greatest([x, y, z]: [f64; 3]) -> f64 {
     larger(larger(x.abs(), y.abs()), z.abs())
 }
 

@@ -3,6 +3,7 @@ use raysect_core::{Departure, Interval};
 use super::*;
 use crate::csg::composite::{Composite, Operation};
 use crate::csg::flat::Flat;
+use crate::csg::walk::Walk;
 
 /// A composite that always asks its operands.
 struct General(Composite);
@@ -20,7 +21,7 @@ struct Twin {
 type Make<'a> = &'a dyn Fn(Composite) -> Shape;
 
 fn plainly(composite: Composite) -> Shape {
-    match composite.operation() {
+    match composite.operation {
         Operation::Union => share(Union(composite)),
         Operation::Intersect => share(Intersect(composite)),
         Operation::Subtract => share(Subtract(composite)),
@@ -79,11 +80,12 @@ impl Twin {
         }
     }
 
-    /// How many of so many rays are answered differently, how many hit, and how many the list of leaves has decided.
-    fn compare(&self, rays: usize, rng: &mut Rng) -> [usize; 3] {
+    /// How many of so many rays are answered differently, how many hit, and of how many the list of leaves has decided at
+    /// all, and found the hit without the chords of all leaves.
+    fn compare(&self, rays: usize, rng: &mut Rng) -> [usize; 4] {
         let ball = self.general.bounding_sphere(&AffineMatrix3D::IDENTITY);
         let mut scratch = Scratch::default();
-        let [mut different, mut hits, mut decided] = [0; 3];
+        let [mut different, mut hits, mut decided, mut soon] = [0; 4];
         for _ in 0..rays {
             let mut ray = line_through(ball.centre, ball.radius, rng);
             let across = ball.radius / ray.direction.length();
@@ -112,9 +114,12 @@ impl Twin {
             let of_flat = answers(&self.flat);
             different += usize::from(of_flat != answers(&self.general));
             hits += usize::from(of_flat.0.is_some());
-            decided += usize::from(list_of(&self.flat).is_some_and(|flat| flat.hit(&ray, within).is_some()));
+            let Some(flat) = list_of(&self.flat) else { continue };
+            decided += usize::from(flat.hit(&ray, within).is_some());
+            let found = |mut walk: Walk<'_>| walk.meets() && walk.entry(within).flatten().is_some();
+            soon += usize::from(Walk::new(flat, &ray, within).is_some_and(found));
         }
-        [different, hits, decided]
+        [different, hits, decided, soon]
     }
 }
 
@@ -126,21 +131,22 @@ fn list_of(shape: &Shape) -> Option<&Flat> {
 }
 
 /// Sums over bodies.
-fn total(counts: impl Iterator<Item = [usize; 3]>) -> [usize; 3] {
-    counts.fold([0; 3], |sum, one| [0, 1, 2].map(|i| sum[i] + one[i]))
+fn total(counts: impl Iterator<Item = [usize; 4]>) -> [usize; 4] {
+    counts.fold([0; 4], |sum, one| [0, 1, 2, 3].map(|i| sum[i] + one[i]))
 }
 
 #[test]
 fn composites_as_lists_of_leaves_answer_to_the_bit_as_those_that_ask_their_operands() {
     let mut rng = Rng::new(51);
     let (bodies, rays) = (400, 200);
-    let [different, hits, decided] = total((0..bodies).map(|number| {
+    let [different, hits, decided, soon] = total((0..bodies).map(|number| {
         let body = Twin::random(2 + number % 5, &mut rng);
         body.compare(rays, &mut rng)
     }));
     let all = bodies as usize * rays;
     assert!(different == 0 && hits > all / 10, "{different} of {hits}");
     assert!(decided * 1000 > all * 995, "{decided} of {all}");
+    assert!(soon > all / 40, "{soon} of {all}");
 }
 
 #[test]
@@ -177,7 +183,8 @@ fn pile(make: Make<'_>, rng: &mut Rng) -> Twin {
 #[test]
 fn faces_in_common_are_left_to_the_tie_rule() {
     let mut rng = Rng::new(53);
-    let [different, hits, decided] = total((0..20).map(|_| pile(&plainly, &mut rng).compare(300, &mut rng)));
+    let [different, hits, decided, _] =
+        total((0..20).map(|_| pile(&plainly, &mut rng).compare(300, &mut rng)));
     assert!(different == 0 && hits > 1000, "{different} of {hits}");
     assert!(decided < 20 * 300 * 9 / 10, "{decided}");
     // A list that believes itself where crossings nearly coincide.
@@ -204,7 +211,7 @@ fn lists_know_small_and_large_bodies_and_those_far_away() {
             (&rod, here * rotate(20.0, 30.0, 0.0) * translate(0.2, 0.0, -1.0)),
             &plainly,
         );
-        let [different, hits, _] = bored.compare(2000, &mut rng);
+        let [different, hits, ..] = bored.compare(2000, &mut rng);
         assert!(different == 0 && hits > 500, "{different} of {hits} at {size} m, {far} m away");
     }
 }
