@@ -317,13 +317,14 @@ impl Primitive for Composite {
     }
 
     fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
-        self.crossings_within(ray, LINE, scratch, out);
+        if !self.flat.as_ref().is_some_and(|flat| flat.list(ray, LINE, f64::INFINITY, out)) {
+            self.merged(ray, LINE, scratch, out);
+        }
     }
 
     fn crossings_within(&self, ray: &Ray, within: Interval, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
-        if !self.flat.as_ref().is_some_and(|flat| flat.list(ray, LINE, f64::INFINITY, out)) {
-            self.merged(ray, within, scratch, out);
-        }
+        // An operand within another composite: most lines are soon done with, by the boxes of its own operands.
+        self.merged(ray, within, scratch, out);
     }
 
     fn hit(&self, ray: &Ray, within: Interval, scratch: &mut Scratch) -> Option<Crossing> {
