@@ -1,5 +1,6 @@
 //! The contract of a shape.
 
+use std::any::Any;
 use std::sync::Arc;
 
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D, Vector3D};
@@ -153,7 +154,7 @@ impl Scratch {
 /// - `hit`, `hit_after` and `crossings_within` report what `crossings` reports.
 /// - `contains` agrees with the parity of the crossings.
 /// - The bounding box contains every surface point, under every affine map.
-pub trait Primitive: Send + Sync + 'static {
+pub trait Primitive: Any + Send + Sync {
     /// A tight box around the image of the shape under `m`, rounded outward.
     fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D;
 
@@ -283,6 +284,9 @@ impl<P: Primitive + ?Sized> Primitive for Arc<P> {
     fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
         (**self).crossings(ray, scratch, out);
     }
+    fn crossings_within(&self, ray: &Ray, within: Interval, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
+        (**self).crossings_within(ray, within, scratch, out);
+    }
     fn hit(&self, ray: &Ray, within: Interval, scratch: &mut Scratch) -> Option<Crossing> {
         (**self).hit(ray, within, scratch)
     }
@@ -321,5 +325,46 @@ impl<P: Primitive + ?Sized> Primitive for Arc<P> {
     }
     fn kind(&self) -> &'static str {
         (**self).kind()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nothing but an answer that depends on the interval that is asked for.
+    struct Echo;
+
+    impl Primitive for Echo {
+        fn bounding_box(&self, _: &AffineMatrix3D) -> BoundingBox3D {
+            BoundingBox3D::EMPTY
+        }
+        fn contains(&self, _: Point3D) -> bool {
+            false
+        }
+        fn crossings(&self, _: &Ray, _: &mut Scratch, _: &mut Vec<Crossing>) {}
+        fn crossings_within(&self, _: &Ray, within: Interval, _: &mut Scratch, out: &mut Vec<Crossing>) {
+            let at = |distance| Crossing { distance, feature: Feature::default(), exiting: false };
+            out.extend([within.min, within.max].map(at));
+        }
+        fn surface(&self, ray: &Ray, _: &Crossing) -> Surface {
+            let normal = Normal3D::new(0.0, 0.0, 1.0);
+            Surface { point: ray.origin, normal, shading_normal: normal, bound: 0.0 }
+        }
+    }
+
+    #[test]
+    fn shared_shapes_are_told_which_interval_matters() {
+        let shared: Arc<dyn Primitive> = Arc::new(Arc::new(Echo));
+        let ray = Ray::new(Point3D::ORIGIN, Vector3D::Z);
+        let mut out = Vec::new();
+        Primitive::crossings_within(
+            &shared,
+            &ray,
+            Interval::new(2.0, 5.0),
+            &mut Scratch::default(),
+            &mut out,
+        );
+        assert_eq!(out.iter().map(|c| c.distance).collect::<Vec<_>>(), [2.0, 5.0]);
     }
 }

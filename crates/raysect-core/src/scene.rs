@@ -319,7 +319,7 @@ impl<A: Attachment> Scene<A> {
         let mut best: Option<Candidate> = None;
         let prepared = TraversalRay::new(ray, leaving.map_or(0.0, |l| -l.zone));
         self.accelerator.visit(&prepared, ray.max_distance, &mut |index, limit| {
-            let Some(crossing) = self.hit_instance(index, ray, leaving, limit, scratch) else { return limit };
+            let Some(crossing) = self.nearest(index, ray, leaving, limit, scratch) else { return limit };
             let nearer = best.is_none_or(|b| {
                 crossing.distance < b.crossing.distance
                     || (crossing.distance == b.crossing.distance && index < b.instance)
@@ -335,12 +335,12 @@ impl<A: Attachment> Scene<A> {
     #[inline]
     fn hit_few(&self, ray: &Ray, leaving: Option<&Leaving>, scratch: &mut Scratch) -> Option<Candidate> {
         if let [_] = self.instances[..] {
-            let crossing = self.hit_instance(0, ray, leaving, ray.max_distance, scratch)?;
+            let crossing = self.nearest(0, ray, leaving, ray.max_distance, scratch)?;
             return Some(Candidate { instance: 0, crossing });
         }
         let (mut best, mut limit) = (None, ray.max_distance);
         for index in 0..self.instances.len() as u32 {
-            let Some(crossing) = self.hit_instance(index, ray, leaving, limit, scratch) else { continue };
+            let Some(crossing) = self.nearest(index, ray, leaving, limit, scratch) else { continue };
             // Among equals the first one stays.
             if best.is_none_or(|b: Candidate| crossing.distance < b.crossing.distance) {
                 best = Some(Candidate { instance: index, crossing });
@@ -348,6 +348,24 @@ impl<A: Attachment> Scene<A> {
             }
         }
         best
+    }
+
+    /// As [`hit_instance`](Self::hit_instance). A ray that leaves no surface does not pay for what one that does may need.
+    #[inline(always)]
+    fn nearest(
+        &self,
+        index: u32,
+        ray: &Ray,
+        leaving: Option<&Leaving>,
+        limit: f64,
+        scratch: &mut Scratch,
+    ) -> Option<Crossing> {
+        if leaving.is_some() {
+            return self.hit_instance(index, ray, leaving, limit, scratch);
+        }
+        let instance = &self.instances[index as usize];
+        let mut room = None;
+        instance.primitive.hit(instance.local(ray, &mut room), Interval::new(0.0, limit), scratch)
     }
 
     /// The nearest hit of one instance alone, up to the distance `limit`.

@@ -8,11 +8,13 @@ use raysect_core::{
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
 use crate::PrimitiveError;
+use crate::chord::Chord;
 use crate::revolution::{
     LOWER, NearTip, Passage, SIDE, ball_about_axis, chances, check_aspect, check_length, choose, disk_area,
     disk_reach, face_of, flat_normal, half_arc, piece_weight, roots, rounded_box, sample_disk, tip_ball,
     turned, within_disk,
 };
+use crate::select::smaller;
 
 /// A cone about the z axis with its base at z = 0 and its apex at z = height.
 ///
@@ -93,11 +95,24 @@ impl Cone {
         near.above_base(self.side(&near))
     }
 
+    /// How deep a point lies within [m], negative outside: the surface is at least so far away.
+    #[inline]
+    pub(crate) fn depth(&self, p: Point3D) -> f64 {
+        let rho = (p.x * p.x + p.y * p.y).sqrt();
+        smaller(p.z, (self.height - p.z) * self.sine - rho * self.cosine)
+    }
+
     /// As [`passage`](Self::passage), unless the line is outside of the side for all its length.
     #[inline]
     fn passage_that_meets(&self, ray: &Ray) -> Option<Passage> {
         let near = NearTip::new(ray, self.height);
         Some(near.above_base(self.side(&near).that_meets()?))
+    }
+
+    /// What of a line is within.
+    #[inline]
+    pub(crate) fn chord(&self, ray: &Ray) -> Option<Chord> {
+        self.passage_that_meets(ray)?.chord()
     }
 
     /// Within the endless cone below the apex, ρ ≤ k w with w counted downwards from the apex.
@@ -200,9 +215,7 @@ impl Primitive for Cone {
     }
 
     fn crossings(&self, ray: &Ray, _: &mut Scratch, out: &mut Vec<Crossing>) {
-        if let Some(passage) = self.passage_that_meets(ray) {
-            passage.report(out);
-        }
+        out.extend(self.chord(ray).iter().flat_map(Chord::crossings));
     }
 
     #[inline]

@@ -9,6 +9,7 @@ use raysect_core::{
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
 use crate::PrimitiveError;
+use crate::chord::Chord;
 use crate::select::{larger, smaller};
 
 /// A box with its edges along the axes.
@@ -52,14 +53,6 @@ const NORMALS: [Normal3D; 6] = [
     Normal3D::new(0.0, 0.0, -1.0),
     Normal3D::new(0.0, 0.0, 1.0),
 ];
-
-/// Where a line runs through the slabs of a cuboid, and by which faces it comes and goes.
-struct Passage {
-    near: f64,
-    far: f64,
-    entry: u32,
-    exit: u32,
-}
 
 /// Number of a face: twice the axis, plus one for the upper side.
 #[inline]
@@ -129,12 +122,26 @@ impl Cuboid {
         NORMALS[(face_number(axis, upper) % 6) as usize]
     }
 
+    /// How deep a point lies within [m], negative outside: the surface is at least so far away.
+    #[inline]
+    pub(crate) fn depth(&self, p: Point3D) -> f64 {
+        let (low, high) = (self.lower(), self.upper());
+        let between = |axis: usize| smaller(p[axis] - low[axis], high[axis] - p[axis]);
+        smaller(smaller(between(0), between(1)), between(2))
+    }
+
+    /// What of a line is within a cuboid that is no sheet.
+    #[inline]
+    pub(crate) fn chord(&self, ray: &Ray) -> Option<Chord> {
+        self.passage(ray).filter(|p| p.near <= p.far)
+    }
+
     /// The common interval of the three slabs, possibly empty (`near > far`); none if the ray runs beside a slab.
     ///
     /// The slabs do not wait for each other, and selections take the place of branches: which way lines run cannot be
     /// foretold. Of faces at equal distance that of the first axis counts.
     #[inline]
-    fn passage(&self, ray: &Ray) -> Option<Passage> {
+    fn passage(&self, ray: &Ray) -> Option<Chord> {
         let (o, d, low, high) = (ray.origin, ray.direction, self.lower(), self.upper());
         let (near_x, far_x) = Self::within_slab(o.x, d.x, low.x, high.x)?;
         let (near_y, far_y) = Self::within_slab(o.y, d.y, low.y, high.y)?;
@@ -143,7 +150,7 @@ impl Cuboid {
         let axis = |y: bool, z: bool| (2 * u32::from(z)).max(u32::from(y));
         let (came, goes) = (axis(near_y > near_x, near_z > near_xy), axis(far_y < far_x, far_z < far_xy));
         let backward = u32::from(d.x < 0.0) | (u32::from(d.y < 0.0) << 1) | (u32::from(d.z < 0.0) << 2);
-        Some(Passage {
+        Some(Chord {
             near: larger(near_xy, near_z),
             far: smaller(far_xy, far_z),
             entry: 2 * came + ((backward >> came) & 1),
@@ -161,10 +168,6 @@ impl Cuboid {
         Some((smaller(to_low, to_high), larger(to_low, to_high)))
     }
 
-    fn crossing(distance: f64, face: u32, exiting: bool) -> Crossing {
-        Crossing { distance, feature: Feature { face, ..Feature::default() }, exiting }
-    }
-
     /// A sheet is crossed once, and always by the face that looks at the ray.
     #[inline]
     fn sheet_crossing(&self, axis: usize, ray: &Ray) -> Option<Crossing> {
@@ -179,7 +182,7 @@ impl Cuboid {
         let within = (axis == 0 || (x >= low.x && x <= high.x))
             && (axis == 1 || (y >= low.y && y <= high.y))
             && (axis == 2 || (z >= low.z && z <= high.z));
-        within.then(|| Self::crossing(t, face_number(axis, d[axis] < 0.0), false))
+        within.then(|| Chord::crossing(t, face_number(axis, d[axis] < 0.0), false))
     }
 }
 
@@ -195,8 +198,8 @@ impl Primitive for Cuboid {
     fn crossings(&self, ray: &Ray, _: &mut Scratch, out: &mut Vec<Crossing>) {
         if let Some(axis) = self.sheet {
             out.extend(self.sheet_crossing(axis, ray));
-        } else if let Some(p) = self.passage(ray).filter(|p| p.near <= p.far) {
-            out.extend([Self::crossing(p.near, p.entry, false), Self::crossing(p.far, p.exit, true)]);
+        } else {
+            out.extend(self.chord(ray).iter().flat_map(Chord::crossings));
         }
     }
 
@@ -205,11 +208,7 @@ impl Primitive for Cuboid {
         if let Some(axis) = self.sheet {
             return self.sheet_crossing(axis, ray).filter(|c| within.contains(c.distance));
         }
-        let p = self.passage(ray).filter(|p| p.near <= p.far)?;
-        if within.contains(p.near) {
-            return Some(Self::crossing(p.near, p.entry, false));
-        }
-        within.contains(p.far).then(|| Self::crossing(p.far, p.exit, true))
+        self.chord(ray)?.first(within)
     }
 
     fn hit_after(&self, ray: &Ray, left: &Departure, max_distance: f64, _: &mut Scratch) -> Option<Crossing> {
@@ -219,7 +218,7 @@ impl Primitive for Cuboid {
         // A ray that goes inward has entered: it leaves by the nearest far side, however rounding has placed it.
         let p = self.passage(ray)?;
         let far = p.far.max(0.0);
-        (far <= max_distance).then(|| Self::crossing(far, p.exit, true))
+        (far <= max_distance).then(|| Chord::crossing(far, p.exit, true))
     }
 
     #[inline]

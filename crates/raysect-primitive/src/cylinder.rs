@@ -8,10 +8,12 @@ use raysect_core::{
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
 use crate::PrimitiveError;
+use crate::chord::Chord;
 use crate::revolution::{
     LOWER, Passage, SIDE, UPPER, ball_about_axis, chances, check_length, choose, disk_area, disk_reach,
     face_of, half_arc, piece_weight, rounded_box, sample_disk, turned,
 };
+use crate::select::smaller;
 
 /// A cylinder about the z axis with flat ends at z = 0 and z = height.
 ///
@@ -82,6 +84,19 @@ impl Cylinder {
         self.between_ends(self.side(ray), ray)
     }
 
+    /// How deep a point lies within [m], negative outside: the surface is at least so far away.
+    #[inline]
+    pub(crate) fn depth(&self, p: Point3D) -> f64 {
+        let ends = smaller(p.z, self.height - p.z);
+        smaller(ends, self.radius - (p.x * p.x + p.y * p.y).sqrt())
+    }
+
+    /// What of a line is within.
+    #[inline]
+    pub(crate) fn chord(&self, ray: &Ray) -> Option<Chord> {
+        self.between_ends(self.side(ray).that_meets()?, ray).chord()
+    }
+
     #[inline]
     fn between_ends(&self, side: Passage, ray: &Ray) -> Passage {
         side.above_base(ray).below(self.height, ray)
@@ -97,7 +112,7 @@ impl Cylinder {
         if longer < SHORT {
             return self.steep_side(ray, longer);
         }
-        self.chord(o, d.x, d.y, 1.0)
+        self.across(o, d.x, d.y, 1.0)
     }
 
     /// For lines that are all but parallel to the axis.
@@ -108,11 +123,11 @@ impl Cylinder {
             let outside = (o.x * o.x + o.y * o.y).sqrt() > self.radius;
             return Passage::within_side(f64::NEG_INFINITY, f64::INFINITY, outside);
         }
-        self.chord(o, d.x * STRETCH, d.y * STRETCH, STRETCH)
+        self.across(o, d.x * STRETCH, d.y * STRETCH, STRETCH)
     }
 
     #[inline]
-    fn chord(&self, o: Point3D, dx: f64, dy: f64, stretch: f64) -> Passage {
+    fn across(&self, o: Point3D, dx: f64, dy: f64, stretch: f64) -> Passage {
         let inverse = 1.0 / (dx * dx + dy * dy).sqrt();
         let (dx, dy) = (dx * inverse, dy * inverse);
         let along = o.x * dx + o.y * dy;
@@ -162,9 +177,7 @@ impl Primitive for Cylinder {
     }
 
     fn crossings(&self, ray: &Ray, _: &mut Scratch, out: &mut Vec<Crossing>) {
-        if let Some(side) = self.side(ray).that_meets() {
-            self.between_ends(side, ray).report(out);
-        }
+        out.extend(self.chord(ray).iter().flat_map(Chord::crossings));
     }
 
     #[inline]

@@ -20,6 +20,7 @@
 //! A shape of your own implements [`Primitive`](raysect_core::Primitive); test it with
 //! [`check_primitive`](raysect_core::testing::check_primitive).
 
+mod chord;
 mod cone;
 mod csg;
 mod cuboid;

@@ -8,6 +8,7 @@ use raysect_core::{
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
 use crate::PrimitiveError;
+use crate::chord::Chord;
 use crate::revolution::{
     LOWER, NearTip, Passage, SIDE, ball_about_axis, chances, check_aspect, check_length, choose, disk_area,
     disk_reach, face_of, flat_normal, half_arc, piece_weight, roots, rounded_box, sample_disk, tip_ball,
@@ -119,6 +120,12 @@ impl Parabola {
         Some(near.above_base(self.side(&near).that_meets()?))
     }
 
+    /// What of a line is within.
+    #[inline]
+    pub(crate) fn chord(&self, ray: &Ray) -> Option<Chord> {
+        self.passage_that_meets(ray)?.chord()
+    }
+
     /// Within the endless paraboloid ρ² ≤ p w, with w counted downwards from the vertex.
     ///
     /// The discriminant is that of the parabola which the plane through the line and parallel to the axis cuts out:
@@ -217,9 +224,7 @@ impl Primitive for Parabola {
     }
 
     fn crossings(&self, ray: &Ray, _: &mut Scratch, out: &mut Vec<Crossing>) {
-        if let Some(passage) = self.passage_that_meets(ray) {
-            passage.report(out);
-        }
+        out.extend(self.chord(ray).iter().flat_map(Chord::crossings));
     }
 
     #[inline]

@@ -7,6 +7,7 @@ use raysect_core::{BoundingBox3D, BoundingSphere3D, Crossing, Feature, Interval,
 use raysect_math::{AffineMatrix3D, MathError, Normal3D, Point3D, sampling};
 
 use crate::PrimitiveError;
+use crate::chord::Chord;
 
 /// Number of the curved face.
 pub(crate) const SIDE: u32 = 0;
@@ -105,24 +106,23 @@ impl Passage {
         !self.misses && self.near <= self.far && self.near.is_finite() && self.far.is_finite()
     }
 
-    /// Entry and exit, if the line meets the body.
+    /// What is within the body, if the line meets it.
     #[inline]
-    pub(crate) fn report(&self, out: &mut Vec<Crossing>) {
-        if self.meets() {
-            out.extend([crossing(self.near, self.entry, false), crossing(self.far, self.exit, true)]);
-        }
+    pub(crate) fn chord(self) -> Option<Chord> {
+        let Self { near, far, entry, exit, .. } = self;
+        self.meets().then_some(Chord { near, far, entry, exit })
     }
 
-    /// The first of the two within an interval.
+    /// The first crossing within an interval. Without a chord on the way, which costs a twentieth of it.
     #[inline]
     pub(crate) fn first(&self, within: Interval) -> Option<Crossing> {
         if !self.meets() {
             return None;
         }
         if within.contains(self.near) {
-            return Some(crossing(self.near, self.entry, false));
+            return Some(Chord::crossing(self.near, self.entry, false));
         }
-        within.contains(self.far).then(|| crossing(self.far, self.exit, true))
+        within.contains(self.far).then(|| Chord::crossing(self.far, self.exit, true))
     }
 
     /// The exit of a ray that starts on the surface and goes inward: it has entered, so it leaves by the nearest far
@@ -130,13 +130,8 @@ impl Passage {
     #[inline]
     pub(crate) fn exit_ahead(&self, max_distance: f64) -> Option<Crossing> {
         let far = self.far.max(0.0);
-        (far <= max_distance && far.is_finite()).then(|| crossing(far, self.exit, true))
+        (far <= max_distance && far.is_finite()).then(|| Chord::crossing(far, self.exit, true))
     }
-}
-
-#[inline]
-fn crossing(distance: f64, face: u32, exiting: bool) -> Crossing {
-    Crossing { distance, feature: face_of(face), exiting }
 }
 
 /// The feature of a face.

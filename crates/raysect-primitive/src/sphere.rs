@@ -1,11 +1,12 @@
 use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{
-    BoundingBox3D, BoundingSphere3D, Crossing, Departure, DirectionSample, Feature, Interval, Primitive, Ray,
-    Scratch, Surface, SurfaceSampling,
+    BoundingBox3D, BoundingSphere3D, Crossing, Departure, DirectionSample, Interval, Primitive, Ray, Scratch,
+    Surface, SurfaceSampling,
 };
 use raysect_math::{AffineMatrix3D, Cone, Frame, MathError, Normal3D, Point3D, Vector3D};
 
 use crate::PrimitiveError;
+use crate::chord::Chord;
 
 /// A ball about the origin.
 ///
@@ -50,7 +51,7 @@ impl Sphere {
     /// (E. Haines, J. Günther, T. Akenine-Möller, *Precision Improvements for Ray/Sphere Intersection*, Ray Tracing
     /// Gems, ch. 7).
     #[inline]
-    fn chord(&self, ray: &Ray) -> (f64, f64) {
+    fn approach(&self, ray: &Ray) -> (f64, f64) {
         let d = ray.direction;
         let squared = 1.0 / d.length_squared();
         let closest = -ray.origin.to_vector().dot(d) * squared;
@@ -64,9 +65,20 @@ impl Sphere {
         (distance > self.radius).then(|| Cone::of_sphere(self.radius, distance))
     }
 
+    /// How deep a point lies within [m], negative outside: the surface is at least so far away.
     #[inline]
-    fn crossing(distance: f64, exiting: bool) -> Crossing {
-        Crossing { distance, feature: Feature::default(), exiting }
+    pub(crate) fn depth(&self, p: Point3D) -> f64 {
+        self.radius - p.to_vector().length()
+    }
+
+    /// What of a line is within.
+    #[inline]
+    pub(crate) fn chord(&self, ray: &Ray) -> Option<Chord> {
+        let (closest, squared) = self.approach(ray);
+        (squared >= 0.0).then(|| {
+            let half = squared.sqrt();
+            Chord { near: closest - half, far: closest + half, entry: 0, exit: 0 }
+        })
     }
 }
 
@@ -96,34 +108,21 @@ impl Primitive for Sphere {
     }
 
     fn crossings(&self, ray: &Ray, _: &mut Scratch, out: &mut Vec<Crossing>) {
-        let (closest, squared) = self.chord(ray);
-        if squared >= 0.0 {
-            let half = squared.sqrt();
-            out.extend([Self::crossing(closest - half, false), Self::crossing(closest + half, true)]);
-        }
+        out.extend(self.chord(ray).iter().flat_map(Chord::crossings));
     }
 
     #[inline]
     fn hit(&self, ray: &Ray, within: Interval, _: &mut Scratch) -> Option<Crossing> {
-        let (closest, squared) = self.chord(ray);
-        if squared < 0.0 {
-            return None;
-        }
-        let half = squared.sqrt();
-        let (near, far) = (closest - half, closest + half);
-        if within.contains(near) {
-            return Some(Self::crossing(near, false));
-        }
-        within.contains(far).then_some(Self::crossing(far, true))
+        self.chord(ray)?.first(within)
     }
 
     fn hit_after(&self, ray: &Ray, left: &Departure, max_distance: f64, _: &mut Scratch) -> Option<Crossing> {
         if !left.inward {
             return None;
         }
-        let (closest, squared) = self.chord(ray);
+        let (closest, squared) = self.approach(ray);
         let far = (closest + squared.max(0.0).sqrt()).max(0.0);
-        (far <= max_distance).then_some(Self::crossing(far, true))
+        (far <= max_distance).then(|| Chord::crossing(far, 0, true))
     }
 
     #[inline]
@@ -158,7 +157,7 @@ impl Primitive for Sphere {
     }
 
     fn direction_density(&self, from: Point3D, direction: Vector3D) -> f64 {
-        let (closest, squared) = self.chord(&Ray::new(from, direction));
+        let (closest, squared) = self.approach(&Ray::new(from, direction));
         let meets = squared >= 0.0 && closest > 0.0;
         match self.cone(from.to_vector().length()) {
             Some(cone) if meets => 1.0 / cone.solid_angle(),

@@ -8,6 +8,7 @@ use raysect_core::{
 use raysect_math::{AffineMatrix3D, Normal3D, Point3D};
 
 use super::Operand;
+use super::flat::Flat;
 use super::operand::{Member, Probe};
 use super::tie::{EXAMINED, TieRule};
 use crate::PrimitiveError;
@@ -25,7 +26,7 @@ pub(super) enum Operation {
 }
 
 impl Operation {
-    fn apply(self, in_a: bool, in_b: bool) -> bool {
+    pub(super) fn apply(self, in_a: bool, in_b: bool) -> bool {
         match self {
             Self::Union => in_a || in_b,
             Self::Intersect => in_a && in_b,
@@ -47,6 +48,9 @@ impl Operation {
     }
 }
 
+/// All distances.
+const LINE: Interval = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
+
 /// A body made of two others.
 ///
 /// Both operands report all crossings of the whole line, on one scale of distances. Outside both at minus infinity, the
@@ -58,10 +62,13 @@ impl Operation {
 /// takes at most one crossing of each operand, and where two of them change the value, both change it in
 /// the same sense.
 ///
+/// Composites of few convex leaves look at the ends of all chords at once, which is the same wherever no two crossings
+/// are so close to each other that they might be one event; see [`Flat`].
+///
 /// This regularises the result (A. Requicha, *Representations for Rigid Solids*, ACM Computing Surveys 12, 1980).
 #[derive(Clone)]
 pub(super) struct Composite {
-    operation: Operation,
+    pub(super) operation: Operation,
     /// The same as bits; see [`Operation::truth`].
     truth: u8,
     pub(super) a: Member,
@@ -75,6 +82,8 @@ pub(super) struct Composite {
     bounds: BoundingBox3D,
     /// Boxes that a line must meet for either operand to matter, where to ask saves time.
     tests: [Option<Slabs>; 2],
+    /// The leaves, if they are few and convex.
+    pub(super) flat: Option<Flat>,
     /// Off in tests that show what it is good for.
     #[cfg(test)]
     pub(super) ties: bool,
@@ -100,6 +109,7 @@ impl Composite {
             convex,
             bounds: BoundingBox3D::EMPTY,
             tests: [None; 2],
+            flat: None,
             a,
             b,
             #[cfg(test)]
@@ -107,6 +117,7 @@ impl Composite {
         };
         composite.bounds = composite.combined_box(&AffineMatrix3D::IDENTITY);
         composite.tests = composite.box_tests();
+        composite.flat = Flat::made_of(operation, &composite.a, &composite.b, &composite.bounds);
         Ok(composite)
     }
 
@@ -147,6 +158,14 @@ impl Composite {
             .min_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs()));
         scratch.give_back(both);
         nearest.map(|c| Crossing { distance: 0.0, ..c })
+    }
+
+    /// Appends the crossings as the operands tell them.
+    fn merged(&self, ray: &Ray, within: Interval, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
+        self.visit(ray, within, scratch, |crossing| {
+            out.push(crossing);
+            ControlFlow::Continue(())
+        });
     }
 
     /// Lends the crossings of the composite one by one, in order: all that lie in an interval, and such others that what
@@ -298,18 +317,20 @@ impl Primitive for Composite {
     }
 
     fn crossings(&self, ray: &Ray, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
-        let line = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
-        self.crossings_within(ray, line, scratch, out);
+        if !self.flat.as_ref().is_some_and(|flat| flat.list(ray, LINE, f64::INFINITY, out)) {
+            self.merged(ray, LINE, scratch, out);
+        }
     }
 
     fn crossings_within(&self, ray: &Ray, within: Interval, scratch: &mut Scratch, out: &mut Vec<Crossing>) {
-        self.visit(ray, within, scratch, |crossing| {
-            out.push(crossing);
-            ControlFlow::Continue(())
-        });
+        // An operand within another composite: most lines are soon done with, by the boxes of its own operands.
+        self.merged(ray, within, scratch, out);
     }
 
     fn hit(&self, ray: &Ray, within: Interval, scratch: &mut Scratch) -> Option<Crossing> {
+        if let Some(found) = self.flat.as_ref().and_then(|flat| flat.hit(ray, within)) {
+            return found;
+        }
         let mut first = None;
         self.visit(ray, within, scratch, |crossing| {
             if within.contains(crossing.distance) {
@@ -331,7 +352,11 @@ impl Primitive for Composite {
         scratch: &mut Scratch,
     ) -> Option<Crossing> {
         let mut all = scratch.take();
-        self.crossings(ray, scratch, &mut all);
+        // One of these is being left, and another one follows it.
+        let (ahead, bound) = (Interval::new(-departure.bound, f64::INFINITY), departure.bound);
+        if !self.flat.as_ref().is_some_and(|flat| flat.list(ray, ahead, bound, &mut all)) {
+            self.merged(ray, LINE, scratch, &mut all);
+        }
         let steepness = |c: &Crossing| self.surface(ray, c).normal.dot(ray.direction).abs();
         let left = departure.left_among(all.iter().copied(), steepness);
         let next = match left {

@@ -1,11 +1,15 @@
 //! Constructive solid geometry: bodies made of two others, nested to any depth.
 
 mod composite;
+mod flat;
 mod intersect;
+mod leaf;
 mod operand;
 mod subtract;
 mod tie;
+mod truth;
 mod union;
+mod walk;
 
 #[cfg(test)]
 mod tests;

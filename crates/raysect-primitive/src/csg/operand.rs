@@ -5,6 +5,7 @@ use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_core::{BoundingBox3D, Crossing, Interval, Primitive, Ray, Scratch, Surface};
 use raysect_math::{AffineMatrix3D, MathError, Normal3D, Point3D};
 
+use super::leaf::Leaf;
 use crate::PrimitiveError;
 use crate::select::{larger, smaller};
 
@@ -97,7 +98,7 @@ impl Member {
             in_place,
             bounds,
             reach: corner.max(shift),
-            stretch: (0..3).map(|i| row_sum(&to_parent, i)).fold(0.0, f64::max),
+            stretch: norm(&to_parent),
             shift,
         })
     }
@@ -115,14 +116,24 @@ impl Member {
 
     #[inline]
     fn local(&self, ray: &Ray) -> Ray {
+        if self.in_place { *ray } else { moved(&self.to_local, ray) }
+    }
+
+    /// A leaf of the operand in the space of the composite.
+    pub(super) fn placed_leaf(&self, leaf: Leaf) -> Leaf {
+        if self.in_place { leaf } else { leaf.below(&self.to_parent, &self.to_local) }
+    }
+
+    /// In the space of the composite, a part of the greatest coordinate of a ray's origin and a length, over the greatest
+    /// component of its direction, that are not less than those of the operand; and a greatest coordinate.
+    pub(super) fn placed_lengths(&self, [part, length]: [f64; 2], reach: f64) -> ([f64; 2], f64) {
         if self.in_place {
-            return *ray;
+            return ([part, length], reach);
         }
-        Ray {
-            origin: self.to_local.transform_point(ray.origin),
-            direction: self.to_local.transform_vector(ray.direction),
-            max_distance: ray.max_distance,
-        }
+        // A direction may shrink on the way in by as much as it is stretched on the way out.
+        let part = part * self.stretch;
+        let shifted = part * self.to_local.origin().max_abs() + length * self.stretch;
+        ([part * norm(&self.to_local), shifted], self.stretch * reach + self.shift)
     }
 
     /// Appends every crossing of the line.
@@ -184,9 +195,20 @@ impl Member {
     }
 }
 
-/// Sum of the magnitudes in a row of the 3×3 part.
-fn row_sum(m: &AffineMatrix3D, row: usize) -> f64 {
-    (0..3).map(|column| m.get(row, column).abs()).sum()
+/// A ray under a map.
+#[inline]
+pub(super) fn moved(map: &AffineMatrix3D, ray: &Ray) -> Ray {
+    Ray {
+        origin: map.transform_point(ray.origin),
+        direction: map.transform_vector(ray.direction),
+        max_distance: ray.max_distance,
+    }
+}
+
+/// The greatest sum of the magnitudes in a row of the 3×3 part: by how much the greatest component of a vector grows at
+/// most.
+pub(super) fn norm(m: &AffineMatrix3D) -> f64 {
+    (0..3).map(|row| (0..3).map(|column| m.get(row, column).abs()).sum()).fold(0.0, f64::max)
 }
 
 /// A line, prepared for tests against boxes.

@@ -3,6 +3,7 @@
 mod algebra;
 mod coincidence;
 mod contract;
+mod flat;
 mod restart;
 
 use std::sync::Arc;
