@@ -12,6 +12,7 @@ mod materials;
 mod mesh_lights;
 mod modifiers;
 mod plates;
+mod prisms;
 mod readings;
 mod rough;
 mod scenes;
