@@ -4,6 +4,7 @@ mod check;
 mod controls;
 mod depth;
 mod dispersion;
+mod filters;
 mod furnace;
 mod glass;
 mod irradiance;
