@@ -8,6 +8,7 @@ mod filters;
 mod furnace;
 mod glass;
 mod irradiance;
+mod known;
 mod lights;
 mod materials;
 mod mesh_lights;
