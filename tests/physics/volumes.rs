@@ -152,6 +152,64 @@ fn volumes_of_sums_and_blends_are_solved_together() {
     assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
 }
 
+/// Two materials that fill the same place.
+type Pair = [Arc<dyn Material>; 2];
+
+#[test]
+fn mixtures_of_unlike_rules_are_what_overlapping_shapes_are() {
+    let glow = |p: Point3D, _: Vector3D, _: Context<'_>, bins: &mut [f64]| {
+        bins.iter_mut().for_each(|b| *b += (-3.0 * p.z).exp());
+    };
+    let jittered: Arc<dyn Material> = Arc::new(InhomogeneousVolumeEmitter::jittered(0.1, glow).unwrap());
+    let steps: Arc<dyn Material> = Arc::new(InhomogeneousVolumeEmitter::trapezium(0.004, 5, glow).unwrap());
+    let absorber: Arc<dyn Material> = Arc::new(UniformVolume::new().absorption(2.0));
+    let density = |p: Point3D| 1.0 + (TAU * p.z).cos();
+    let cloud = UniformVolume::emitter(1.0).absorption(2.0);
+    let cloud: Arc<dyn Material> = Arc::new(ProfileVolume::new(cloud, density, 2.0, 0.2).unwrap());
+    // ∫ exp(−5 s) and what a second one adds, over 1 m.
+    let (dimmed, both) = ((1.0 - (-5.0f64).exp()) / 5.0, 2.0 * (1.0 - (-3.0f64).exp()) / 3.0);
+    // The optical depth of the cloud is 2 s + sin(2 π s) / π; the cloud itself has j / α = 0.5.
+    let through = |s: f64| (-(2.0 * s + (TAU * s).sin() / (0.5 * TAU))).exp();
+    let parts = 100_000;
+    let middle = |i: u32| (f64::from(i) + 0.5) / f64::from(parts);
+    let shone =
+        (0..parts).map(|i| (-3.0 * middle(i)).exp() * through(middle(i))).sum::<f64>() / f64::from(parts);
+    let seen = 0.5 * (1.0 - (-2.0f64).exp()) + shone;
+    let pairs: [(&str, Pair, f64); 4] = [
+        ("jittered and absorber", [jittered.clone(), absorber.clone()], dimmed),
+        ("absorber and steps", [absorber.clone(), steps.clone()], dimmed),
+        ("steps and jittered", [steps.clone(), jittered.clone()], both),
+        ("cloud and jittered", [cloud.clone(), jittered.clone()], seen),
+    ];
+    for (name, [one, two], expected) in pairs {
+        let place = || cuboid([-0.5, -0.5, 0.0], [0.5, 0.5, 1.0]);
+        let apart = world([place().material(one.clone()), place().material(two.clone())]);
+        let mixture = metre_box(Add::new(one.clone(), two.clone()));
+        let nested = Add::new(Arc::new(Blend::new(one.clone(), one, 0.4).unwrap()), two.clone());
+        for (kind, world) in [("apart", apart), ("mixed", mixture), ("nested", metre_box(nested))] {
+            let found = read(&world, 6000, 7);
+            // The trapezium rule is off by 3e-5 here.
+            let z = (found.mean() - expected) / found.error().max(2e-5 * expected);
+            println!("{name}, {kind}: {found:?} {expected}, z {z:+.2}");
+            assert!(found.error() < 1e-3 * expected, "{name}, {kind}: {found:?}");
+            assert!(z.abs() < 4.0, "{name}, {kind}: {found:?} {expected}");
+        }
+    }
+    // Shares count in what is emitted and in what is absorbed.
+    let blend = metre_box(Blend::new(jittered.clone(), absorber, 0.25).unwrap());
+    let (found, expected) = (read(&blend, 6000, 8), 0.75 * (1.0 - (-3.5f64).exp()) / 3.5);
+    assert!(
+        (found.mean() - expected).abs() < 4.0 * found.error() && found.error() < 1e-3 * expected,
+        "{found:?}"
+    );
+    // What is moved is asked as one, and has no parts to be solved apart.
+    let moved = Add::new(jittered, Arc::new(UniformVolume::new().absorption(2.0)));
+    let moved = VolumeTransform::new(Arc::new(moved), translate(0.0, 0.0, 0.1)).unwrap();
+    let ray = raysect::optical::Ray::new(Point3D::new(0.0, 0.0, -0.3), Vector3D::Z);
+    let refused = ray.trace(&metre_box(moved)).unwrap_err().to_string();
+    assert!(refused.contains("different rules cannot be moved"), "{refused}");
+}
+
 #[test]
 fn a_volume_moves_within_its_shape() {
     let sum = |moved: f64| {

@@ -33,6 +33,7 @@ pub use medium::{Coefficients, Medium, MediumPoint, Refraction, Structure};
 pub(crate) use microfacet::MASKINGS;
 pub use microfacet::{Masking, RoughConductor, RoughDielectric};
 pub use mirror::PerfectReflectingSurface;
+pub(crate) use modifier::add_share;
 pub use modifier::{Add, Blend, Roughen, VolumeTransform};
 pub use null::NullMaterial;
 pub use phase_function::{HenyeyGreenstein, PhaseFunction, Rayleigh};
