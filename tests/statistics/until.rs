@@ -106,7 +106,9 @@ fn ruled_pixels(probability: f64, stop: Stop, scope: Scope, end: End, seeds: u64
             // How many samples the clock leaves has nothing to do with their values.
             _ if samples < 1000 && end == End::Time => vec![],
             Scope::Total => vec![(frame.average_of(0), samples)],
-            Scope::Pixels(_) => (0..PIXELS as usize).map(|p| (frame.pixel(p, 0), samples)).collect(),
+            Scope::Pixels(_) | Scope::Above { .. } => {
+                (0..PIXELS as usize).map(|p| (frame.pixel(p, 0), samples)).collect()
+            }
         }
     });
     Averages::of(&all.concat(), 1.0)
@@ -115,6 +117,7 @@ fn ruled_pixels(probability: f64, stop: Stop, scope: Scope, end: End, seeds: u64
 #[test]
 fn averages_ended_by_any_rule_are_right() {
     let (total, all, half) = (Scope::Total, Scope::Pixels(1.0), Scope::Pixels(0.5));
+    let above = Scope::Above { level: 0.5, share: 1.0 };
     let (relative, absolute) = (Stop::relative_error, Stop::absolute_error);
     // The error asked for of a total is that of the sum of the pixels.
     let summed = absolute(0.1 * PIXELS as f64);
@@ -123,6 +126,9 @@ fn averages_ended_by_any_rule_are_right() {
         ("absolute, total", 0.1, summed, total, End::Error, 4000),
         ("relative, all pixels", 0.1, relative(0.1), all, End::Error, 1000),
         ("absolute, all pixels", 0.1, absolute(0.1), all, End::Error, 1000),
+        ("relative, pixels above a level", 0.1, relative(0.1), above, End::Error, 1000),
+        ("relative or absolute", 0.1, relative(0.01).or_absolute_error(0.1), all, End::Error, 1000),
+        ("absolute or relative", 0.1, absolute(0.01).or_relative_error(0.1), half, End::Error, 1000),
         ("relative, half of the pixels", 0.1, relative(0.1), half, End::Error, 1000),
         ("absolute, half of the pixels", 0.1, absolute(0.1), half, End::Error, 1000),
         ("relative, all pixels", 0.01, relative(0.1), all, End::Error, 250),
