@@ -13,8 +13,8 @@ use raysect::primitive::{Cuboid, Sphere};
 
 use crate::scenes::{ball, cuboid, dome, world};
 
-/// A prism of heavy flint before a lamp behind a slit, seen from the other side.
-fn prism_scene() -> World {
+/// A ball of heavy flint before a lamp with edges, seen from the other side.
+fn flint_ball() -> World {
     let flint = Sellmeier::new([1.73759695, 0.313747346, 1.89878101], [0.013188707, 0.0623068142, 155.23629]);
     let glass = Dielectric::new(flint.unwrap(), 1.0).unwrap();
     let node: Node<Optics> = Sphere::new(1.0).unwrap().material(glass);
@@ -24,7 +24,7 @@ fn prism_scene() -> World {
 
 #[test]
 fn a_wide_bin_is_the_average_of_narrow_ones_where_wavelengths_are_sampled() {
-    let world = prism_scene();
+    let world = flint_ball();
     let (origin, direction) = (Point3D::new(0.0, 0.5, -5.0), Vector3D::Z);
     let ray = Ray::new(origin, direction).spectrum(380.0, 740.0, 1);
     let settings = |d| PathSettings::default().dispersion(d);
@@ -48,7 +48,7 @@ fn a_wide_bin_is_the_average_of_narrow_ones_where_wavelengths_are_sampled() {
 
 #[test]
 fn bins_that_are_dispersed_together_are_right_each() {
-    let world = prism_scene();
+    let world = flint_ball();
     let ray = Ray::new(Point3D::new(0.0, 0.5, -5.0), Vector3D::Z).spectrum(380.0, 740.0, 6);
     let together = ray.sample(&world, 60_000).unwrap();
     for bin in 0..6 {

@@ -116,6 +116,42 @@ fn o10_a_matched_absorber_follows_beers_law() {
 }
 
 #[test]
+fn an_external_index_is_that_of_where_no_other_glass_is() {
+    let world = under_a_lamp([layer(0.0, 0.2, glass(1.5, 0.5).external_index(1.33))]);
+    for (degrees, count) in [(0.0, 40_000), (40.0, 40_000), (75.0, 120_000)] {
+        let (r, refracted) = fresnel(degrees, 1.33, 1.5);
+        let value = pile(&[r, r], &[0.5f64.powf(0.2 / refracted.to_radians().cos())]);
+        accept(
+            format!("1.5 in 1.33 at {degrees} degrees"),
+            value,
+            Demand::Mean,
+            &upwards(&world, degrees, count),
+        );
+    }
+    // Seen from within, by a path that begins there: the critical angle is that of 1.33 as well.
+    let passes = |degrees: f64| {
+        let [x, y, z] = times(tilted(degrees), -0.1);
+        let reading = Probe::new(1000).along(&world, [x, y, z + 0.15], tilted(degrees));
+        reading.radiance.mean() > 0.7 * (1.5f64 / 1.33).powi(2)
+    };
+    assert!(passes(60.0) && !passes(63.0), "{}", (1.33f64 / 1.5).asin().to_degrees());
+}
+
+#[test]
+fn an_external_index_does_not_count_within_other_glass() {
+    // The same core in a coat of lower priority, whose own external index counts at its surfaces only.
+    for flip in [false, true] {
+        let core = glass(1.5, 0.5).external_index(1.33).priority(1);
+        let mut nodes = vec![layer(0.0, 3.0, glass(1.2, 0.8).external_index(1.1)), layer(1.0, 2.0, core)];
+        nodes.rotate_left(usize::from(flip));
+        let (outer, inner) = (fresnel(0.0, 1.1, 1.2).0, fresnel(0.0, 1.2, 1.5).0);
+        let value = pile(&[outer, inner, inner, outer], &[0.8, 0.5, 0.8]);
+        let case = format!("1.5 in 1.2 in 1.1, flipped {flip}");
+        accept(case, value, Demand::Mean, &upwards(&under_a_lamp(nodes), 0.0, 200_000));
+    }
+}
+
+#[test]
 fn x01_x02_emission_inside_glass_loses_the_square_of_the_index() {
     let world = world([ball([0.0; 3], 1.0, GlowingGlass::new())]);
     for (id, impact) in [("X01", 0.0), ("X02", 0.6)] {

@@ -3,14 +3,18 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use raysect::math::{Point3D, Rng, Statistics, StreamKey, Vector3D, translate};
-use raysect::optical::{
-    Add, Blend, Context, HenyeyGreenstein, InhomogeneousVolumeEmitter, LightSampling, Path, PathSettings,
-    ProfileVolume, Rayleigh, Slicing, UniformVolume, VolumeTransform, WithMaterial, World,
+use raysect::math::{
+    AffineMatrix3D, Point3D, Rng, Statistics, StreamKey, Vector3D, rotate, rotate_x, translate,
 };
+use raysect::optical::{
+    Add, Blend, Context, HenyeyGreenstein, HomogeneousVolumeEmitter, InhomogeneousVolumeEmitter,
+    LightSampling, Material, Path, PathSettings, ProfileVolume, Rayleigh, Slicing, UniformVolume,
+    VolumeTransform, WithMaterial, World,
+};
+use raysect::primitive::Sphere;
 
 use crate::check::{Demand, Probe, accept};
-use crate::scenes::{ball, cuboid, dome, lamp, world};
+use crate::scenes::{ball, cuboid, dome, lamp, tilted, world};
 
 /// A box of 1 m, whose axis is that of the paths.
 fn metre_box(emitter: impl raysect::optical::Material) -> World {
@@ -148,6 +152,64 @@ fn volumes_of_sums_and_blends_are_solved_together() {
     assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
 }
 
+/// Two materials that fill the same place.
+type Pair = [Arc<dyn Material>; 2];
+
+#[test]
+fn mixtures_of_unlike_rules_are_what_overlapping_shapes_are() {
+    let glow = |p: Point3D, _: Vector3D, _: Context<'_>, bins: &mut [f64]| {
+        bins.iter_mut().for_each(|b| *b += (-3.0 * p.z).exp());
+    };
+    let jittered: Arc<dyn Material> = Arc::new(InhomogeneousVolumeEmitter::jittered(0.1, glow).unwrap());
+    let steps: Arc<dyn Material> = Arc::new(InhomogeneousVolumeEmitter::trapezium(0.004, 5, glow).unwrap());
+    let absorber: Arc<dyn Material> = Arc::new(UniformVolume::new().absorption(2.0));
+    let density = |p: Point3D| 1.0 + (TAU * p.z).cos();
+    let cloud = UniformVolume::emitter(1.0).absorption(2.0);
+    let cloud: Arc<dyn Material> = Arc::new(ProfileVolume::new(cloud, density, 2.0, 0.2).unwrap());
+    // ∫ exp(−5 s) and what a second one adds, over 1 m.
+    let (dimmed, both) = ((1.0 - (-5.0f64).exp()) / 5.0, 2.0 * (1.0 - (-3.0f64).exp()) / 3.0);
+    // The optical depth of the cloud is 2 s + sin(2 π s) / π; the cloud itself has j / α = 0.5.
+    let through = |s: f64| (-(2.0 * s + (TAU * s).sin() / (0.5 * TAU))).exp();
+    let parts = 100_000;
+    let middle = |i: u32| (f64::from(i) + 0.5) / f64::from(parts);
+    let shone =
+        (0..parts).map(|i| (-3.0 * middle(i)).exp() * through(middle(i))).sum::<f64>() / f64::from(parts);
+    let seen = 0.5 * (1.0 - (-2.0f64).exp()) + shone;
+    let pairs: [(&str, Pair, f64); 4] = [
+        ("jittered and absorber", [jittered.clone(), absorber.clone()], dimmed),
+        ("absorber and steps", [absorber.clone(), steps.clone()], dimmed),
+        ("steps and jittered", [steps.clone(), jittered.clone()], both),
+        ("cloud and jittered", [cloud.clone(), jittered.clone()], seen),
+    ];
+    for (name, [one, two], expected) in pairs {
+        let place = || cuboid([-0.5, -0.5, 0.0], [0.5, 0.5, 1.0]);
+        let apart = world([place().material(one.clone()), place().material(two.clone())]);
+        let mixture = metre_box(Add::new(one.clone(), two.clone()));
+        let nested = Add::new(Arc::new(Blend::new(one.clone(), one, 0.4).unwrap()), two.clone());
+        for (kind, world) in [("apart", apart), ("mixed", mixture), ("nested", metre_box(nested))] {
+            let found = read(&world, 6000, 7);
+            // The trapezium rule is off by 3e-5 here.
+            let z = (found.mean() - expected) / found.error().max(2e-5 * expected);
+            println!("{name}, {kind}: {found:?} {expected}, z {z:+.2}");
+            assert!(found.error() < 1e-3 * expected, "{name}, {kind}: {found:?}");
+            assert!(z.abs() < 4.0, "{name}, {kind}: {found:?} {expected}");
+        }
+    }
+    // Shares count in what is emitted and in what is absorbed.
+    let blend = metre_box(Blend::new(jittered.clone(), absorber, 0.25).unwrap());
+    let (found, expected) = (read(&blend, 6000, 8), 0.75 * (1.0 - (-3.5f64).exp()) / 3.5);
+    assert!(
+        (found.mean() - expected).abs() < 4.0 * found.error() && found.error() < 1e-3 * expected,
+        "{found:?}"
+    );
+    // What is moved is asked as one, and has no parts to be solved apart.
+    let moved = Add::new(jittered, Arc::new(UniformVolume::new().absorption(2.0)));
+    let moved = VolumeTransform::new(Arc::new(moved), translate(0.0, 0.0, 0.1)).unwrap();
+    let ray = raysect::optical::Ray::new(Point3D::new(0.0, 0.0, -0.3), Vector3D::Z);
+    let refused = ray.trace(&metre_box(moved)).unwrap_err().to_string();
+    assert!(refused.contains("different rules cannot be moved"), "{refused}");
+}
+
 #[test]
 fn a_volume_moves_within_its_shape() {
     let sum = |moved: f64| {
@@ -173,4 +235,68 @@ fn lengths_are_those_of_the_world() {
     ]);
     world.add(node.transform(stretch.unwrap())).unwrap();
     assert!((read(&world, 1, 1).mean() / 0.8 - 1.0).abs() < 1e-6);
+}
+
+/// Adds an emission of max(0, direction·z) per metre.
+fn forwards(direction: Vector3D, bins: &mut [f64]) {
+    bins.iter_mut().for_each(|bin| *bin += direction.z.max(0.0));
+}
+
+#[test]
+fn emission_by_direction_is_that_of_the_light_in_the_space_of_the_shape() {
+    // A ball of 2 m across whose emission goes along its own z axis: it is seen by who looks against that, and at an
+    // angle θ from it by cos θ.
+    let even = || HomogeneousVolumeEmitter::new(|direction, _, bins| forwards(direction, bins));
+    let uneven =
+        |_: Point3D, direction: Vector3D, _: Context<'_>, bins: &mut [f64]| forwards(direction, bins);
+    let emitters: [(&str, Arc<dyn Material>); 4] = [
+        ("homogeneous", Arc::new(even())),
+        ("length scale", Arc::new(InhomogeneousVolumeEmitter::length_scale(0.5, uneven).unwrap())),
+        ("jittered", Arc::new(InhomogeneousVolumeEmitter::jittered(0.1, uneven).unwrap())),
+        ("trapezium", Arc::new(InhomogeneousVolumeEmitter::trapezium(0.1, 5, uneven).unwrap())),
+    ];
+    let turns = [AffineMatrix3D::IDENTITY, rotate(40.0, 0.0, 0.0), rotate(-70.0, 35.0, 20.0)];
+    for (name, emitter) in emitters {
+        for (number, turn) in turns.into_iter().enumerate() {
+            let mut world = World::new();
+            let node = Sphere::new(1.0).unwrap().material(Arc::clone(&emitter));
+            world.add(node.transform(translate(0.3, -0.2, 0.5) * turn)).unwrap();
+            let (centre, axis) = (Point3D::new(0.3, -0.2, 0.5), turn * Vector3D::Z);
+            for degrees in [0.0, 30.0, 80.0, 100.0, 180.0] {
+                // From where light arrives that has travelled at such an angle to the axis.
+                let travels = turn * Vector3D::from(tilted(degrees));
+                let reading =
+                    Probe::new(10).along(&world, (centre + travels * 4.0).to_array(), (-travels).to_array());
+                let expected = 2.0 * travels.dot(axis).max(0.0);
+                assert!((expected - 2.0 * degrees.to_radians().cos().max(0.0)).abs() < 1e-12);
+                let found = reading.radiance.mean();
+                assert!((found - expected).abs() < 1e-9, "{name}, turn {number}, {degrees} degrees: {found}");
+            }
+        }
+    }
+}
+
+#[test]
+fn emission_by_direction_keeps_its_direction_in_stretched_and_moved_volumes() {
+    // In a shape that is stretched along z a direction leans less than in the world; its length does not count.
+    let stretch = AffineMatrix3D::from_axes(Vector3D::X, Vector3D::Y, Vector3D::Z * 3.0, Point3D::ORIGIN);
+    let emitter = || HomogeneousVolumeEmitter::new(|direction, _, bins| forwards(direction, bins));
+    let mut stretched = World::new();
+    stretched.add(Sphere::new(1.0).unwrap().material(emitter()).transform(stretch)).unwrap();
+    let read = |world: &World, travels: Vector3D| {
+        let from = Point3D::ORIGIN + travels * 9.0;
+        Probe::new(1).along(world, from.to_array(), (-travels).to_array()).radiance.mean()
+    };
+    let travels = Vector3D::new(0.6, 0.0, 0.8);
+    let local = Vector3D::new(0.6, 0.0, 0.8 / 3.0);
+    let (cosine, chord) = (local.z / local.length(), 2.0 / local.length());
+    assert!((read(&stretched, travels) - chord * cosine).abs() < 1e-9, "{}", read(&stretched, travels));
+    assert_eq!(read(&stretched, -travels), 0.0);
+    // What the base emits along z is emitted along the image of z.
+    let turned = VolumeTransform::new(Arc::new(emitter()), rotate_x(60.0)).unwrap();
+    let turned = world([ball([0.0; 3], 1.0, turned)]);
+    let axis = rotate_x(60.0) * Vector3D::Z;
+    assert!((read(&turned, axis) - 2.0).abs() < 1e-9, "{}", read(&turned, axis));
+    assert!((read(&turned, Vector3D::Z) - 1.0).abs() < 1e-9);
+    assert_eq!(read(&turned, -axis), 0.0);
 }

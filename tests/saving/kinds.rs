@@ -47,7 +47,7 @@ fn materials() -> Vec<Optics> {
     let sellmeier =
         Sellmeier::new([1.03961212, 0.231792344, 1.01046945], [0.00600069867, 0.0200179144, 103.560653])
             .unwrap();
-    let lamp = BlackBody::new(2856.1).unwrap().emissivity(table.clone()).scaled(0.1);
+    let lamp = BlackBody::new(2856.1).unwrap().emissivity(table.clone()).scaled(0.1).unwrap();
     let glass = Dielectric::new(sellmeier, table.clone()).unwrap().external_index(1.33).priority(-3);
     let board = Checkerboard::new(0.3).unwrap().spectra((table.clone(), 0.1), (0.7, 0.2)).importance(0.4);
     let glass = glass.transmission_only(true).importance(0.5).named("flint \"7\"");

@@ -262,6 +262,36 @@ impl<S: Sensor> Observer<S> {
         &mut self.sensor
     }
 
+    /// Its place relative to its parent, as set.
+    pub fn chosen_transform(&self) -> &AffineMatrix3D {
+        &self.transform
+    }
+
+    /// The node that it hangs under; none for the root.
+    pub fn chosen_parent(&self) -> Option<NodeId> {
+        self.parent
+    }
+
+    /// How many samples a pixel gets in each [`observe`](Self::observe), as set.
+    pub fn samples_per_observation(&self) -> u64 {
+        self.pixel_samples
+    }
+
+    /// The seed, as set.
+    pub fn seed_value(&self) -> u64 {
+        self.seed
+    }
+
+    /// The settings of its paths.
+    pub fn path_settings(&self) -> &PathSettings {
+        &self.paths
+    }
+
+    /// Which pixels are observed, row by row, as set; none if all are.
+    pub fn chosen_mask(&self) -> Option<&[bool]> {
+        (!self.mask.is_empty()).then_some(&self.mask[..])
+    }
+
     /// The map from its own space to that of the world.
     ///
     /// # Errors
@@ -470,14 +500,6 @@ impl<S: Sensor> Observer<S> {
         self.lane.0
     }
 
-    pub(crate) fn path_settings(&self) -> &PathSettings {
-        &self.paths
-    }
-
-    pub(crate) fn seed_value(&self) -> u64 {
-        self.seed
-    }
-
     pub(crate) fn chosen_engine(&self) -> Result<Arc<dyn Engine>, ObserverError> {
         match &self.engine {
             Some(engine) => Ok(engine.clone()),
@@ -495,10 +517,6 @@ impl<S: Sensor> Observer<S> {
 
     pub(crate) fn cancel_token(&self) -> &CancelToken {
         &self.cancel
-    }
-
-    pub(crate) fn samples_per_observation(&self) -> u64 {
-        self.pixel_samples
     }
 }
 

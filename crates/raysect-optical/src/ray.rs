@@ -77,6 +77,30 @@ impl Ray {
         Self { settings, ..self }
     }
 
+    /// Where it begins and ends, as set.
+    pub fn geometry(&self) -> &raysect_core::Ray {
+        &self.geometry
+    }
+
+    /// The range of wavelengths and its bins, all in one slice.
+    ///
+    /// # Errors
+    /// [`OpticalError::Slicing`] for an impossible range.
+    #[doc(alias("min_wavelength", "max_wavelength", "wavelength_range", "bins"))]
+    pub fn slicing(&self) -> Result<Slicing, OpticalError> {
+        Slicing::new(self.min, self.max, self.bins, 1)
+    }
+
+    /// The seed, as set.
+    pub fn seed_value(&self) -> u64 {
+        self.seed
+    }
+
+    /// The settings of its paths.
+    pub fn path_settings(&self) -> &PathSettings {
+        &self.settings
+    }
+
     /// The spectrum along one path.
     ///
     /// # Errors
@@ -132,7 +156,7 @@ impl Ray {
     fn prepare<'w>(&self, world: &'w World) -> Result<(&'w Scene, Vec<Slice>), OpticalError> {
         self.geometry.check()?;
         let scene = world.scene()?;
-        let slices = Slicing::new(self.min, self.max, self.bins, 1)?.slices();
+        let slices = self.slicing()?.slices();
         for instance in &scene.instances {
             instance.attached.material().check(&slices[0])?;
         }

@@ -88,7 +88,7 @@ pub fn register(registry: &mut Registry) {
     registry.function("Constant", |entry| Ok(entry.number("value")?));
     registry.function("BlackBody", |entry| {
         let body = BlackBody::new(entry.number("temperature")?)?;
-        Ok(body.emissivity(entry.function("emissivity")?).scaled(entry.number("scale")?))
+        Ok(body.emissivity(entry.function("emissivity")?).scaled(entry.number("scale")?)?)
     });
     registry.function("GaussianLine", |entry| {
         Ok(GaussianLine::new(entry.number("centre")?, entry.number("sigma")?, entry.number("total")?)?)

@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use raysect_core::Node;
-use raysect_math::{Point3D, Rng, Statistics, StreamKey, Vector3D, translate};
+use raysect_math::{
+    AffineMatrix3D, Normal3D, Point3D, Rng, Statistics, StreamKey, Vector3D, rotate, translate,
+};
 use raysect_optical::library::schott;
 use raysect_optical::*;
 use raysect_primitive::{Cuboid, Sphere};
@@ -202,6 +204,44 @@ fn a_simple_path_is_told_in_full() {
 }
 
 #[test]
+fn hits_tell_their_normals_and_where_they_lie_in_their_shapes() {
+    // A turned, moved and stretched ball of fog that scatters, before a wall.
+    let stretch =
+        AffineMatrix3D::from_axes(Vector3D::X, Vector3D::Y * 2.0, Vector3D::Z * 0.5, Point3D::ORIGIN);
+    let place = translate(0.3, -0.2, 4.0) * rotate(30.0, 40.0, 50.0) * stretch;
+    let fog = UniformVolume::new().scattering(3.0, HenyeyGreenstein::isotropic());
+    let mut world = World::new();
+    world.add(Sphere::new(1.0).unwrap().material(fog).transform(place)).unwrap();
+    let (mut surfaces, mut volumes) = (0, 0);
+    for sample in 0..20 {
+        for vertex in straight().replay(&world, sample).unwrap().vertices {
+            let Some(hit) = vertex.hit else { continue };
+            assert!((place * hit.local_point).distance_to(vertex.point) < 1e-12, "{hit:?}");
+            let centre = Point3D::ORIGIN.distance_to(hit.local_point);
+            let Some(normal) = hit.normal else {
+                assert!(vertex.event == PathEvent::Scattered && centre < 1.0, "{hit:?}");
+                volumes += 1;
+                continue;
+            };
+            // The gradient of x² + y² + z² of the shape.
+            let local = Point3D::ORIGIN.vector_to(hit.local_point);
+            let expected = place
+                .transform_normal(Normal3D::new(local.x, local.y, local.z))
+                .unwrap()
+                .as_vector()
+                .normalise()
+                .unwrap();
+            assert!(
+                (centre - 1.0).abs() < 1e-12 && (normal.as_vector() - expected).length() < 1e-12,
+                "{hit:?}"
+            );
+            surfaces += 1;
+        }
+    }
+    assert!(surfaces > 30 && volumes > 20, "{surfaces} {volumes}");
+}
+
+#[test]
 fn emission_of_media_belongs_to_the_way() {
     let mut world = World::new();
     let cloud = UniformVolume::emitter(3.0).absorption(0.5);
@@ -267,13 +307,20 @@ fn files_have_every_vertex() {
 
     let csv = folder.read("a.csv");
     let lines: Vec<&str> = csv.lines().collect();
-    assert_eq!((lines.len(), lines[0].split(',').count()), (12, 12));
-    assert_eq!(lines[1], "0.1,0.2,0,started,,,,,1,1,0,0");
+    assert_eq!((lines.len(), lines[0].split(',').count()), (12, 18));
+    assert_eq!(lines[1], "0.1,0.2,0,started,,,,,1,1,0,0,,,,,,");
     assert!(lines[6].starts_with("0.1,0.2,4,mirrored,Cuboid,\"mirror, back\",PerfectReflectingSurface,0,"));
     assert!(lines[11].starts_with("0.1,0.2,-2,emitted,Cuboid,lamp,UniformSurfaceEmitter,0,"));
-    let last: Vec<f64> = lines[11].split(',').skip(8).map(|number| number.parse().unwrap()).collect();
+    let numbers = |line: &str, skip: usize| -> Vec<f64> {
+        line.split(',').skip(skip).map(|number| number.parse().unwrap()).collect()
+    };
     let lamp = &path.vertices[10];
-    assert_eq!(last, [lamp.mean_before(), 0.0, 0.0, lamp.mean_radiance()]);
+    let (places, mirror) = (numbers(lines[11], 12), numbers(lines[6], 13));
+    assert_eq!(numbers(lines[11], 8)[..4], [lamp.mean_before(), 0.0, 0.0, lamp.mean_radiance()]);
+    let hit = lamp.hit.as_ref().unwrap();
+    assert_eq!((&places[..3], &places[3..]), (&[0.0, 0.0, 1.0][..], &hit.local_point.to_array()[..]));
+    // The name of the mirror has a comma.
+    assert_eq!(mirror[..3], [0.0, 0.0, -1.0]);
 
     let obj = folder.read("a.obj");
     assert_eq!(obj.lines().filter(|line| line.starts_with("v ")).nth(5), Some("v 0.1 0.2 4"));
@@ -286,7 +333,12 @@ fn files_have_every_vertex() {
     let at = |word: &str| words.iter().position(|w| *w == word).unwrap();
     assert_eq!(words[at("throughput") + 5 + 3].parse(), Ok(path.vertices[3].mean_after()));
     assert_eq!(words[at("radiance") + 5 + 10].parse(), Ok(lamp.mean_radiance()));
-    assert_eq!((words[at("event") + 5 + 5], words.len()), ("2", at("event") + 5 + 11));
+    assert_eq!((words[at("event") + 5 + 5], words[at("event") + 5 + 11]), ("2", "VECTORS"));
+    assert_eq!(words[at("normal") + 2..][..9], ["0", "0", "0", "0", "0", "-1", "0", "0", "1"]);
+    let (first, last) = (at("local_point") + 2, words.len() - 3);
+    assert_eq!((&words[first..first + 3], last), (&["0", "0", "0"][..], first + 30));
+    let written: Vec<f64> = words[last..].iter().map(|word| word.parse().unwrap()).collect();
+    assert_eq!(written, hit.local_point.to_array());
 
     let lost = path.save_csv(folder.0.join("no/a.csv")).unwrap_err();
     assert!(matches!(&lost, OpticalError::File { .. }) && lost.to_string().contains("no"), "{lost}");

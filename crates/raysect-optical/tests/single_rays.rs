@@ -72,3 +72,26 @@ fn paths_within_paths_are_accounted_for() {
     assert_eq!((ledger.paths, ledger.absorbed, ledger.truncated), (70, 60, 10), "{ledger:?}");
     assert_eq!((ended(&ledger), ledger.collected, ledger.rays), (70, 60, 60), "{ledger:?}");
 }
+
+#[test]
+fn settings_of_a_ray_can_be_read_back() {
+    let (origin, direction) = (Point3D::new(1.0, 2.0, 3.0), Vector3D::new(0.0, 3.0, 4.0));
+    let ray = Ray::new(origin, direction);
+    let known = ray.slicing().unwrap();
+    assert_eq!(
+        (known.min_wavelength(), known.max_wavelength(), known.bins(), ray.seed_value()),
+        (375.0, 785.0, 40, 1)
+    );
+    assert_eq!(ray.path_settings(), &PathSettings::default());
+    let settings = PathSettings::default().max_depth(7);
+    let ray = ray.spectrum(400.0, 500.0, 5).seed(9).max_distance(2.5).settings(settings.clone());
+    let known = ray.slicing().unwrap();
+    assert_eq!(
+        (known.min_wavelength(), known.max_wavelength(), known.bins(), ray.seed_value()),
+        (400.0, 500.0, 5, 9)
+    );
+    assert_eq!(ray.path_settings(), &settings);
+    let geometry = ray.geometry();
+    assert_eq!((geometry.origin, geometry.direction, geometry.max_distance), (origin, direction, 2.5));
+    assert!(ray.spectrum(500.0, 400.0, 5).slicing().is_err());
+}

@@ -1,7 +1,8 @@
 //! Emission along rays through densities that know their structure, against sums over their pieces.
 
 use raysect_math::function::{
-    Function, Interpolation, Interpolator2DArray, Interpolator3DArray, Structured3D, axisymmetric,
+    Function, Interpolation, Interpolation1D, Interpolator1DArray, Interpolator2DArray, Interpolator3DArray,
+    Shells, Structured3D, axisymmetric, coaxial, spherical,
 };
 use raysect_math::{Discrete2DMesh, Discrete3DMesh, Point2D, Point3D, Rng, Vector3D};
 use raysect_optical::{Material, ProfileVolume, Ray, UniformVolume, WithMaterial, World};
@@ -123,6 +124,37 @@ fn what_is_turned_around_an_axis_is_integrated_exactly() {
     }
     let values: Vec<f64> = (0..50).map(|_| rng.uniform()).collect();
     assert_integrals(axisymmetric(Discrete2DMesh::new(vertices, triangles, values).unwrap()), 6);
+}
+
+#[test]
+fn shells_about_a_point_and_an_axis_are_integrated_exactly() {
+    let mut rng = Rng::new(9);
+    let (centre, axis) = (Point3D::new(0.1, -0.2, 0.05), Vector3D::new(0.3, 1.0, -0.2));
+    let edges = knots(0.05, 5, &mut rng);
+    let values: Vec<f64> = (0..4).map(|_| rng.uniform()).collect();
+    let shells = Shells::new(&edges, &values).unwrap();
+    assert_integrals(spherical(shells.clone(), centre), 10);
+    assert_integrals(coaxial(shells, centre, axis).unwrap(), 11);
+}
+
+#[test]
+fn radial_tables_are_integrated_to_the_tolerance() {
+    let mut rng = Rng::new(12);
+    let (centre, axis) = (Point3D::new(0.1, -0.2, 0.05), Vector3D::new(0.3, 1.0, -0.2));
+    let r = knots(0.05, 6, &mut rng);
+    let values: Vec<f64> = r.iter().map(|_| rng.uniform()).collect();
+    for interpolation in [Interpolation1D::Linear, Interpolation1D::Monotone] {
+        let table = Interpolator1DArray::new(&r, &values, interpolation).unwrap();
+        let lamp = || UniformVolume::new().emission(1.0);
+        let ball = spherical(table.clone(), centre);
+        let error =
+            worst(&Finer(ball.clone()), &world(ProfileVolume::structured(lamp(), ball, 1.0).unwrap()), 13);
+        assert!(error < 1e-6, "{interpolation:?}: {error}");
+        let tube = coaxial(table, centre, axis).unwrap();
+        let error =
+            worst(&Finer(tube.clone()), &world(ProfileVolume::structured(lamp(), tube, 1.0).unwrap()), 14);
+        assert!(error < 1e-6, "{interpolation:?}: {error}");
+    }
 }
 
 #[test]

@@ -90,6 +90,7 @@ mod of;
 pub mod operator;
 mod place;
 mod sample;
+mod shells;
 mod structure;
 #[cfg(test)]
 mod tests;
@@ -107,10 +108,12 @@ pub use interpolate::{
     Interpolator3DArray,
 };
 pub use mapping::{
-    AxisymmetricMapper, CylindricalTransform, PeriodicSectors, axisymmetric, cylindrical, periodic_sectors,
+    AxisymmetricMapper, CoaxialMapper, CylindricalTransform, PeriodicSectors, SphericalMapper, axisymmetric,
+    coaxial, cylindrical, periodic_sectors, spherical,
 };
 pub use of::Of;
 pub use place::Place;
 pub use sample::{GridAxis, GridSamples, sample_path, sample_points, sample1d, sample2d, sample3d};
-pub use structure::{Structured2D, Structured3D};
+pub use shells::Shells;
+pub use structure::{Structured1D, Structured2D, Structured3D};
 pub use value::Value;

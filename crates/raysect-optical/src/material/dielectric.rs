@@ -1,6 +1,9 @@
 use raysect_core::save::{SaveError, Saved, SceneWriter};
 
-use super::{Coefficients, Context, Facts, Material, Medium, MediumPoint, Refraction, Scatter, SurfaceHit};
+use super::{
+    Coefficients, Context, Facts, Material, Medium, MediumPoint, Refraction, Scatter, SurfaceHit,
+    check_shares,
+};
 use crate::{OpticalError, Path, Slice, SpectralFunction, SpectralTable};
 
 /// A smooth transparent solid: Fresnel reflection and refraction at its surface, absorption inside.
@@ -179,6 +182,7 @@ impl Material for Dielectric {
     }
 
     fn check(&self, slice: &Slice) -> Result<(), OpticalError> {
+        self.facts().check()?;
         let width = slice.bin_width();
         for function in [&self.refraction.index, &self.refraction.external_index] {
             for (i, &value) in slice.table(function).iter().enumerate() {
@@ -193,11 +197,7 @@ impl Material for Dielectric {
                 }
             }
         }
-        for &value in slice.table(&self.transmission) {
-            let admitted = (0.0..=1.0).contains(&value);
-            raysect_math::MathError::check(admitted, value, "transmission per metre", "", "0 … 1")?;
-        }
-        Ok(())
+        check_shares(slice, &self.transmission, "transmission per metre")
     }
 
     fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {

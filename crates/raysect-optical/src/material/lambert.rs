@@ -4,8 +4,8 @@ use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_math::sampling::{hemisphere, uniforms};
 use raysect_math::{Rng, Vector3D};
 
-use super::{Bsdf, Context, Facts, Material, Scatter, SurfaceHit};
-use crate::{Path, SpectralTable};
+use super::{Bsdf, Context, Facts, Material, Scatter, SurfaceHit, check_shares};
+use crate::{OpticalError, Path, Slice, SpectralTable};
 
 /// An ideal diffuse reflector, on both sides: f = ρ/π (J. H. Lambert, *Photometria*, 1760).
 #[derive(Debug, Clone)]
@@ -21,7 +21,8 @@ impl Default for Lambert {
 }
 
 impl Lambert {
-    /// Of a reflectivity ρ, 0 … 1, as a function of the wavelength.
+    /// Of a reflectivity ρ, 0 … 1, as a function of the wavelength. Where it lies outside it is refused when it is
+    /// observed.
     pub fn new(reflectivity: impl Into<SpectralTable>) -> Self {
         Self { reflectivity: reflectivity.into() }
     }
@@ -59,6 +60,10 @@ impl Material for Lambert {
 
     fn facts(&self) -> Facts {
         Facts::named("Lambert").without_index()
+    }
+
+    fn check(&self, slice: &Slice) -> Result<(), OpticalError> {
+        check_shares(slice, &self.reflectivity, "reflectivity of a diffuse surface")
     }
 
     fn save(&self, writer: &mut SceneWriter) -> Result<Saved, SaveError> {

@@ -117,8 +117,9 @@ pub trait Medium: Send + Sync {
         None
     }
 
-    /// The parts of a mixture, each with its share; a mixture scatters by the phase function of one of them, chosen
-    /// anew at each scattering.
+    /// The parts of a mixture, each with its share: the coefficients of the mixture are the sum of theirs, times the
+    /// shares. It scatters by the phase function of one of them, chosen anew at each scattering; and along a ray each is
+    /// solved by its own structure, unless that of the mixture is declared.
     fn parts(&self) -> Option<[(f64, &dyn Medium); 2]> {
         None
     }

@@ -33,6 +33,7 @@ pub use medium::{Coefficients, Medium, MediumPoint, Refraction, Structure};
 pub(crate) use microfacet::MASKINGS;
 pub use microfacet::{Masking, RoughConductor, RoughDielectric};
 pub use mirror::PerfectReflectingSurface;
+pub(crate) use modifier::add_share;
 pub use modifier::{Add, Blend, Roughen, VolumeTransform};
 pub use null::NullMaterial;
 pub use phase_function::{HenyeyGreenstein, PhaseFunction, Rayleigh};
@@ -40,9 +41,9 @@ pub use surface_hit::SurfaceHit;
 pub use volume::{HomogeneousVolumeEmitter, InhomogeneousVolumeEmitter, ProfileVolume, UniformVolume};
 
 use raysect_core::save::{SaveError, Saved, SceneObject, SceneWriter, short_name};
-use raysect_math::Vector3D;
+use raysect_math::{MathError, Vector3D};
 
-use crate::{OpticalError, Path, Slice};
+use crate::{OpticalError, Path, Slice, SpectralTable};
 
 /// What is known at a surface besides the hit: small, copied freely, and independent of the path.
 #[derive(Debug, Clone, Copy)]
@@ -123,6 +124,22 @@ impl Facts {
         Self { emits: true, absorbs: true, ..Self::named(name) }
     }
 
+    /// Refuses what no material has.
+    ///
+    /// # Errors
+    /// [`MathError::OutOfRange`] unless the importance is finite and not negative.
+    pub fn check(&self) -> Result<(), OpticalError> {
+        let admitted = self.importance >= 0.0 && self.importance.is_finite();
+        MathError::check(
+            admitted,
+            self.importance,
+            "importance of a material",
+            "",
+            "finite and not negative",
+        )?;
+        Ok(())
+    }
+
     /// The same of a surface that reads no refractive index.
     pub(crate) fn without_index(self) -> Self {
         Self { index_use: IndexUse::None, ..self }
@@ -170,12 +187,13 @@ pub trait Material: Send + Sync + 'static {
         Facts::named(short_name(std::any::type_name::<Self>()))
     }
 
-    /// Refuses a range of wavelengths that it cannot describe.
+    /// Refuses settings that make no sense, and a range of wavelengths that it cannot describe; by default
+    /// [what no material has](Facts::check).
     ///
     /// # Errors
     /// What is wrong there.
     fn check(&self, _slice: &Slice) -> Result<(), OpticalError> {
-        Ok(())
+        self.facts().check()
     }
 
     /// What a file needs to know to make it again; see [`raysect_core::save`]. It refers to a
@@ -187,6 +205,17 @@ pub trait Material: Send + Sync + 'static {
     fn save(&self, _writer: &mut SceneWriter) -> Result<Saved, SaveError> {
         Err(SaveError::NotSaved { role: "material", kind: self.facts().name })
     }
+}
+
+/// Refuses a table whose bins are not between 0 and 1, but for the rounding of averages over narrow bins: differences
+/// of integrals that begin at the first entry of a table.
+fn check_shares(slice: &Slice, table: &SpectralTable, name: &'static str) -> Result<(), OpticalError> {
+    let rounding = 64.0 * f64::EPSILON * slice.max / slice.bin_width();
+    for &value in slice.table(table) {
+        let admitted = (-rounding..=1.0 + rounding).contains(&value);
+        MathError::check(admitted, value, name, "", "0 … 1")?;
+    }
+    Ok(())
 }
 
 /// A material within another one; [`OpticalEntry::material`](crate::OpticalEntry::material) reads it.

@@ -4,6 +4,7 @@ use raysect_core::Ray;
 
 use super::Path;
 use super::media::MediaList;
+use crate::material::add_share;
 use crate::{Coefficients, Medium, MediumPoint, Structure};
 
 /// Nodes of a cell.
@@ -68,12 +69,50 @@ impl Cell {
     }
 }
 
+/// A medium that is solved by a rule of its own: a whole one, or a part of a mixture.
+#[derive(Clone, Copy)]
+struct Part<'a> {
+    instance: u32,
+    /// Its place among the parts of what fills the instance.
+    number: u32,
+    medium: &'a dyn Medium,
+    share: f64,
+}
+
+impl<'a> Part<'a> {
+    fn whole(instance: u32, medium: &'a dyn Medium) -> Self {
+        Self { instance, number: 0, medium, share: 1.0 }
+    }
+
+    /// Lends `each` a whole medium with its structure, or the parts of a mixture whose own structure is not declared.
+    fn each(self, each: &mut dyn FnMut(Self, Structure)) {
+        self.count(&mut 0, each);
+    }
+
+    fn count(self, next: &mut u32, each: &mut dyn FnMut(Self, Structure)) {
+        let structure = self.medium.structure();
+        let parts = match structure {
+            Structure::Homogeneous | Structure::Smooth { .. } => None,
+            Structure::Unknown { .. } | Structure::Trapezium { .. } => self.medium.parts(),
+        };
+        for (share, medium) in parts.into_iter().flatten() {
+            Part { medium, share: self.share * share, ..self }.count(next, each);
+        }
+        if parts.is_none() {
+            each(Part { number: *next, ..self }, structure);
+            *next += 1;
+        }
+    }
+}
+
 /// A place where a medium of unknown structure is asked.
 #[derive(Debug, Clone, Copy)]
 struct Sample {
     distance: f64,
     weight: f64,
     instance: u32,
+    /// Which part of what fills the instance.
+    part: u32,
 }
 
 /// Room for line integrals, grown at first use.
@@ -122,6 +161,11 @@ impl<'a> Path<'a> {
         }
     }
 
+    /// The same, with mixtures taken apart whose structure is not declared.
+    fn each_part(&self, media: &MediaList, mut each: impl FnMut(Part<'a>, Structure)) {
+        self.each_medium(media, |instance, medium| Part::whole(instance, medium).each(&mut each));
+    }
+
     /// Asks one medium for its coefficients at a place along a ray.
     pub(super) fn ask(
         &self,
@@ -131,13 +175,18 @@ impl<'a> Path<'a> {
         distance: f64,
         out: &mut Coefficients<'_>,
     ) {
+        self.ask_part(Part::whole(instance, medium), ray, distance, out);
+    }
+
+    /// Asks a part for its share of the coefficients.
+    fn ask_part(&self, part: Part<'_>, ray: &Ray, distance: f64, out: &mut Coefficients<'_>) {
         let at = MediumPoint {
             point: ray.point_at(distance),
             direction: -ray.direction,
-            to_local: &self.scene.instances[instance as usize].to_local,
+            to_local: &self.scene.instances[part.instance as usize].to_local,
             at: self.context(),
         };
-        medium.coefficients(&at, out);
+        add_share(part.share, part.medium, &at, out);
     }
 
     /// Adds up the coefficients of the media of a list at a place along a ray into `emitted`, `attenuation` and
@@ -225,13 +274,13 @@ impl<'a> Path<'a> {
         room.breaks.clear();
         room.samples.clear();
         let mut cell = f64::INFINITY;
-        self.each_medium(media, |instance, medium| {
-            let to_local = &self.scene.instances[instance as usize].to_local;
+        self.each_part(media, |part, structure| {
+            let to_local = &self.scene.instances[part.instance as usize].to_local;
             let local =
                 Ray::new(to_local.transform_point(ray.origin), to_local.transform_vector(ray.direction))
                     .with_max_distance(distance);
-            medium.breakpoints(&local, &mut room.breaks);
-            if let Structure::Smooth { length_scale } = medium.structure() {
+            part.medium.breakpoints(&local, &mut room.breaks);
+            if let Structure::Smooth { length_scale } = structure {
                 cell = cell.min(length_scale / local.direction.length());
             }
         });
@@ -261,13 +310,13 @@ impl<'a> Path<'a> {
     /// Chooses where the media of unknown structure are asked, with the length that each place stands for.
     fn place_samples(&mut self, media: &MediaList, ray: &Ray, distance: f64, samples: &mut Vec<Sample>) {
         let mut rng = self.rng.clone();
-        self.each_medium(media, |instance, medium| {
+        self.each_part(media, |Part { instance, number, .. }, structure| {
             let scale = {
                 let to_local = &self.scene.instances[instance as usize].to_local;
                 to_local.transform_vector(ray.direction).length()
             };
             let local = distance * scale;
-            match medium.structure() {
+            match structure {
                 Structure::Unknown { step } => {
                     let steps = (local / step).ceil().max(1.0);
                     let width = distance / steps;
@@ -275,6 +324,7 @@ impl<'a> Path<'a> {
                         distance: (i as f64 + u) * width,
                         weight: width,
                         instance,
+                        part: number,
                     };
                     samples.extend((0..steps as usize).map(|i| place(i, rng.uniform())));
                 }
@@ -284,7 +334,7 @@ impl<'a> Path<'a> {
                     samples.extend((0..=steps as usize).map(|i| {
                         let end = i == 0 || i == steps as usize;
                         let weight = if end { 0.5 * width } else { width };
-                        Sample { distance: (i as f64 * width).min(distance), weight, instance }
+                        Sample { distance: (i as f64 * width).min(distance), weight, instance, part: number }
                     }));
                 }
                 Structure::Homogeneous | Structure::Smooth { .. } => {}
@@ -295,7 +345,7 @@ impl<'a> Path<'a> {
 
     /// Adds the emission of a medium of unknown structure at one place, seen through what lies before it.
     fn take_sample(&mut self, room: &mut LineRoom, ray: &Ray, number: usize) {
-        let Sample { distance, weight, instance } = room.samples[number];
+        let Sample { distance, weight, instance, part } = room.samples[number];
         let Some(medium) = self.medium(instance) else { return };
         let mut emission = std::mem::take(&mut self.emitted);
         let mut attenuation = std::mem::take(&mut self.attenuation);
@@ -306,7 +356,11 @@ impl<'a> Path<'a> {
             attenuation: &mut attenuation,
             scattering: &mut scattering,
         };
-        self.ask(medium, instance, ray, distance, &mut out);
+        Part::whole(instance, medium).each(&mut |found, _| {
+            if found.number == part {
+                self.ask_part(found, ray, distance, &mut out);
+            }
+        });
         for (i, emission) in emission.iter().enumerate() {
             room.sum.light[i] += weight * emission * (-room.sum.depth[i]).exp();
         }
@@ -451,14 +505,14 @@ impl<'a> Path<'a> {
         let mut scattering = std::mem::take(&mut self.scattering);
         let (emission, attenuation) =
             (&mut room.emission[row..row + bins], &mut room.attenuation[row..row + bins]);
-        self.each_medium(media, |instance, medium| {
-            if matches!(medium.structure(), Structure::Homogeneous | Structure::Smooth { .. }) {
+        self.each_part(media, |part, structure| {
+            if matches!(structure, Structure::Homogeneous | Structure::Smooth { .. }) {
                 let mut out = Coefficients {
                     emission: &mut *emission,
                     attenuation: &mut *attenuation,
                     scattering: &mut scattering,
                 };
-                self.ask(medium, instance, ray, distance, &mut out);
+                self.ask_part(part, ray, distance, &mut out);
             }
         });
         attenuation.iter_mut().for_each(|a| *a = a.min(OPAQUE));

@@ -245,7 +245,7 @@ impl<'a> Path<'a> {
                         return;
                     };
                     if LOGGED {
-                        log.meet(self, scatterer, true);
+                        log.meet_volume(self, scatterer, ray.point_at(flight));
                     }
                     (self.leaving, passes, pieces) = (None, 0, false);
                     self.depth += 1;
@@ -272,7 +272,7 @@ impl<'a> Path<'a> {
             let surface = &at.surface;
             if LOGGED {
                 log.arrive(self, surface.point);
-                log.meet(self, surface.instance, surface.exiting);
+                log.meet_surface(self, surface);
             }
             let scatter = if self.enter_interface(&at) { self.meet(&at) } else { Scatter::PassThrough };
             let direction = match scatter {

@@ -50,8 +50,13 @@ impl BlackBody {
     }
 
     /// With every value multiplied by a factor.
-    pub fn scaled(self, factor: f64) -> Self {
-        Self { scale: self.scale * factor, ..self }
+    ///
+    /// # Errors
+    /// [`MathError::OutOfRange`] unless it is positive and finite.
+    pub fn scaled(self, factor: f64) -> Result<Self, OpticalError> {
+        let admitted = factor > 0.0 && factor.is_finite();
+        MathError::check(admitted, factor, "scale of a black body", "", "positive and finite")?;
+        Ok(Self { scale: self.scale * factor, ..self })
     }
 
     /// The temperature [K].
@@ -180,7 +185,7 @@ mod tests {
     #[test]
     fn an_emissivity_is_weighed_by_the_law() {
         let body = BlackBody::new(3000.0).unwrap();
-        let grey = body.clone().emissivity(0.7).scaled(2.0);
+        let grey = body.clone().emissivity(0.7).scaled(2.0).unwrap();
         close(grey.integrate(375.0, 740.0), 1.4 * body.integrate(375.0, 740.0), 1e-14);
         let step = InterpolatedSf::new([400.0, 500.0, 500.001, 600.0], [0.2, 0.2, 0.9, 0.9]).unwrap();
         let painted = body.clone().emissivity(step);
@@ -188,6 +193,18 @@ mod tests {
             integrate(&|w| (0.2 + 0.7 * (w - 500.0) / 0.001) * body.radiance(w), 500.0, 500.001, 1e-3, 1e-12);
         let exact = 0.2 * body.integrate(375.0, 500.0) + middle.0 + 0.9 * body.integrate(500.001, 740.0);
         close(painted.integrate(375.0, 740.0), exact, 1e-10);
+    }
+
+    #[test]
+    fn impossible_scales_are_refused() {
+        for factor in [0.0, -0.5, f64::NAN, f64::INFINITY] {
+            let refused = BlackBody::new(300.0).unwrap().scaled(factor).unwrap_err().to_string();
+            assert!(
+                refused.contains(&format!("{factor}")) && refused.contains("scale of a black body"),
+                "{refused}"
+            );
+            assert!(refused.contains("positive and finite"), "{refused}");
+        }
     }
 
     #[test]

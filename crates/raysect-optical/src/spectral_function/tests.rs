@@ -25,7 +25,7 @@ fn functions() -> Vec<(&'static str, Box<dyn SpectralFunction>)> {
         ("wide line", Box::new(GaussianLine::new(512.0, 40.0, 3.0).unwrap())),
         ("narrow line", Box::new(GaussianLine::new(512.0, 0.05, 3.0).unwrap())),
         ("top hat", Box::new(TopHat::new(440.0, 520.0, 1.5).unwrap())),
-        ("black body", Box::new(BlackBody::new(3000.0).unwrap().scaled(1e-3))),
+        ("black body", Box::new(BlackBody::new(3000.0).unwrap().scaled(1e-3).unwrap())),
         ("grey body", Box::new(BlackBody::new(5778.0).unwrap().emissivity(table.clone()))),
         ("spectrum", Box::new(spectrum)),
         ("shared", Box::new(Arc::new(table) as Arc<dyn SpectralFunction>)),

@@ -26,17 +26,7 @@ pub(super) struct Axis {
 impl Axis {
     /// At least two ascending, finite knots; without extrapolation.
     pub(super) fn new(name: &'static str, knots: &[f64]) -> Result<Self, MathError> {
-        if knots.len() < 2 {
-            return Err(MathError::TooFewKnots { axis: name, count: knots.len() });
-        }
-        MathError::check(knots.len() <= MOST, knots.len() as f64, "number of knots", "", "2 … 2³¹")?;
-        check_finite(name, &[knots.len()], knots)?;
-        for (i, pair) in knots.windows(2).enumerate() {
-            if pair[0] >= pair[1] {
-                let (index, previous, value) = (i + 1, pair[0], pair[1]);
-                return Err(MathError::KnotsNotAscending { axis: name, index, value, previous });
-            }
-        }
+        check_knots(name, knots)?;
         let last = knots.len() - 1;
         // Even knots begin their parts in spite of rounding.
         let density = (1.0 + 1e-9) * last as f64 / (knots[last] - knots[0]);
@@ -206,8 +196,24 @@ pub(super) fn check_finite(name: &'static str, shape: &[usize], values: &[f64]) 
     Err(MathError::TableNotFinite { name, index, value: values[first] })
 }
 
+/// At least two ascending, finite knots.
+pub(in super::super) fn check_knots(name: &'static str, knots: &[f64]) -> Result<(), MathError> {
+    if knots.len() < 2 {
+        return Err(MathError::TooFewKnots { axis: name, count: knots.len() });
+    }
+    MathError::check(knots.len() <= MOST, knots.len() as f64, "number of knots", "", "2 … 2³¹")?;
+    check_finite(name, &[knots.len()], knots)?;
+    for (i, pair) in knots.windows(2).enumerate() {
+        if pair[0] >= pair[1] {
+            let (index, previous, value) = (i + 1, pair[0], pair[1]);
+            return Err(MathError::KnotsNotAscending { axis: name, index, value, previous });
+        }
+    }
+    Ok(())
+}
+
 /// One finite value for each point of a grid.
-pub(super) fn check_values(shape: &[usize], values: &[f64]) -> Result<(), MathError> {
+pub(in super::super) fn check_values(shape: &[usize], values: &[f64]) -> Result<(), MathError> {
     if shape.iter().product::<usize>() != values.len() {
         return Err(MathError::TableSize { shape: shape.to_vec(), count: values.len() });
     }

@@ -56,6 +56,10 @@ impl Interpolator1DArray {
         Ok(self)
     }
 
+    pub(super) fn axis(&self) -> &Axis {
+        &self.axis
+    }
+
     /// The first and last knot.
     pub fn domain(&self) -> (f64, f64) {
         self.axis.domain()

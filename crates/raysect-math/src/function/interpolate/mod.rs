@@ -15,6 +15,7 @@ mod tests1d;
 #[cfg(test)]
 mod tests_grid;
 
+pub(super) use axis::{check_knots, check_values};
 pub use interpolator1d::Interpolator1DArray;
 pub use interpolator2d::Interpolator2DArray;
 pub use interpolator3d::Interpolator3DArray;

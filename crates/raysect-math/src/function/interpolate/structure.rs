@@ -1,11 +1,22 @@
-//! The structure of functions on grids: they have corners at the planes and lines of their knots.
+//! The structure of functions on grids: they have corners at the planes, lines and places of their knots.
 
-use super::super::{Structured2D, Structured3D};
-use super::{Interpolator2DArray, Interpolator3DArray};
+use super::super::{Structured1D, Structured2D, Structured3D};
+use super::{Interpolator1DArray, Interpolator2DArray, Interpolator3DArray};
 use crate::{Point3D, Vector3D};
 
 /// What lines without an end are cut to [units of the table]: beyond everything, with room to square it.
 const ENDLESS: f64 = 1e150;
+
+impl Structured1D for Interpolator1DArray {
+    /// The smallest distance of two knots.
+    fn length_scale(&self) -> f64 {
+        self.axis().shortest_step()
+    }
+
+    fn each_edge(&self, each: &mut dyn FnMut(f64)) {
+        self.axis().borders().for_each(each);
+    }
+}
 
 impl Structured3D for Interpolator3DArray {
     /// The smallest distance of two knots.

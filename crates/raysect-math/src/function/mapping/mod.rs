@@ -1,17 +1,22 @@
-//! Functions in space from functions of cylindrical coordinates about the z axis.
+//! Functions in space from functions of cylindrical coordinates about the z axis, or of the distance to a point or an
+//! axis.
 //!
 //! Vectors of such functions are given by their parts in the half-plane of the place: x is the radial part, y the
 //! toroidal one (along growing φ), z the vertical one.
 
 mod axisymmetric;
+mod coaxial;
 mod cylindrical;
 mod sectors;
+mod spherical;
 #[cfg(test)]
 mod tests;
 
 pub use axisymmetric::{AxisymmetricMapper, axisymmetric};
+pub use coaxial::{CoaxialMapper, coaxial};
 pub use cylindrical::{CylindricalTransform, cylindrical};
 pub use sectors::{PeriodicSectors, periodic_sectors};
+pub use spherical::{SphericalMapper, spherical};
 
 use super::Value;
 

@@ -1,14 +1,12 @@
 //! The structure of functions that are turned around the z axis: each edge in the half-plane becomes a part of a cone.
 
 use super::super::AxisymmetricMapper;
+use super::round::Pass;
 use super::{Structured2D, Structured3D};
 use crate::{Point3D, Vector3D, solve_quadratic};
 
 /// By how much an edge is lengthened at both ends, in units of its length, for rounding: a break too many does no harm.
 const SLACK: f64 = 1e-9;
-
-/// The bend of a radius is not resolved below this part of the length scale: what happens there does not matter.
-const FINEST: f64 = 1e-4;
 
 impl<F: Structured2D> Structured3D for AxisymmetricMapper<F> {
     fn length_scale(&self) -> f64 {
@@ -18,24 +16,10 @@ impl<F: Structured2D> Structured3D for AxisymmetricMapper<F> {
     /// Takes the time of as many quadratics as the function has edges.
     fn add_breaks(&self, origin: Point3D, direction: Vector3D, out: &mut Vec<f64>) {
         self.plane().each_edge(&mut |from, to| cross(from, to, origin, direction, out));
-        pass_axis(origin, direction, self.length_scale(), out);
-    }
-}
-
-/// Where a line passes the axis the radius bends within its least value: adds places at once, twice, four times … that
-/// from the nearest one, up to the length over which the function itself changes.
-fn pass_axis(o: Point3D, d: Vector3D, length_scale: f64, out: &mut Vec<f64>) {
-    let rate = d.x * d.x + d.y * d.y;
-    if rate == 0.0 {
-        return;
-    }
-    let nearest = -(o.x * d.x + o.y * d.y) / rate;
-    let least = (o.x * d.y - o.y * d.x).abs() / rate.sqrt();
-    out.push(nearest);
-    let mut away = least.max(FINEST * length_scale);
-    while away < length_scale {
-        out.extend([nearest - away / rate.sqrt(), nearest + away / rate.sqrt()]);
-        away *= 2.0;
+        let across = |x: f64, y: f64| Vector3D::new(x, y, 0.0);
+        if let Some(pass) = Pass::new(across(origin.x, origin.y), across(direction.x, direction.y)) {
+            pass.bend(self.length_scale(), out);
+        }
     }
 }
 

@@ -24,7 +24,7 @@ fn line(rng: &mut Rng) -> (Point3D, Vector3D) {
 
 /// Asserts that a function is a polynomial of degree three or less between any two breaks along random lines: what three
 /// of four intervals tell must be true in the fourth. `jumps` are functions that are constant.
-fn assert_smooth_between_breaks(function: &dyn Structured3D, seed: u64) -> usize {
+pub(super) fn assert_smooth_between_breaks(function: &dyn Structured3D, seed: u64) -> usize {
     let mut rng = Rng::new(seed);
     let mut pieces = 0;
     for _ in 0..2000 {
@@ -154,7 +154,7 @@ fn tetrahedra_are_constant_between_their_breaks() {
 }
 
 /// A function that keeps its breaks to itself.
-struct Secret<T>(T);
+pub(super) struct Secret<T>(pub(super) T);
 
 impl<T: Structured3D> Function<(f64, f64, f64)> for Secret<T> {
     type Value = f64;

@@ -4,20 +4,34 @@ use raysect_core::Ray;
 
 use super::buffers::with_buffer;
 use super::parts::Parts;
+use crate::Context;
 use crate::material::{Coefficients, Medium, MediumPoint, Refraction, Structure};
-use crate::{Context, OpticalError};
 
-/// The structure of two media together; none if no rule can solve both at once.
-pub(super) fn combined(first: Structure, second: Structure) -> Option<Structure> {
+/// The structure of two media together: the finer one if both are declared, else that of one which is not, so that
+/// each is solved by itself.
+fn combined(first: Structure, second: Structure) -> Structure {
     use Structure::{Homogeneous, Smooth, Unknown};
     match (first, second) {
-        (Homogeneous, other @ (Homogeneous | Smooth { .. })) | (other @ Smooth { .. }, Homogeneous) => {
-            Some(other)
-        }
-        (Smooth { length_scale: a }, Smooth { length_scale: b }) => Some(Smooth { length_scale: a.min(b) }),
-        (Unknown { step: a }, Unknown { step: b }) => Some(Unknown { step: a.min(b) }),
-        (a, b) => (a == b).then_some(a),
+        (Smooth { length_scale: a }, Smooth { length_scale: b }) => Smooth { length_scale: a.min(b) },
+        (Unknown { step: a }, Unknown { step: b }) => Unknown { step: a.min(b) },
+        (Homogeneous | Smooth { .. }, other) if other != Homogeneous => other,
+        (other, _) => other,
     }
+}
+
+/// True for a mixture whose parts have to be solved each by itself.
+pub(super) fn is_divided(medium: &dyn Medium) -> bool {
+    use Structure::{Homogeneous, Smooth, Unknown};
+    medium.parts().is_some_and(|parts| {
+        let [one, two] = parts.map(|(_, part)| part);
+        let at_once = match (one.structure(), two.structure()) {
+            (Homogeneous | Smooth { .. }, Homogeneous | Smooth { .. }) | (Unknown { .. }, Unknown { .. }) => {
+                true
+            }
+            (first, second) => first == second,
+        };
+        !at_once || is_divided(one) || is_divided(two)
+    })
 }
 
 impl Parts {
@@ -25,17 +39,6 @@ impl Parts {
     fn media(&self) -> Option<[(f64, &dyn Medium); 2]> {
         let (first, second) = (self.first.medium()?, self.second.medium()?);
         Some([(self.shares[0], first), (self.shares[1], second)])
-    }
-
-    /// Refuses media that no rule can solve together.
-    pub(super) fn check_media(&self) -> Result<(), OpticalError> {
-        let combined = self.media().map(|[a, b]| combined(a.1.structure(), b.1.structure()));
-        match combined {
-            Some(None) => Err(OpticalError::Modifier {
-                what: "their volumes are integrated by different rules; declare a length scale for both",
-            }),
-            _ => Ok(()),
-        }
     }
 }
 
@@ -46,8 +49,7 @@ impl Medium for Parts {
     }
 
     fn structure(&self) -> Structure {
-        let both = self.media().and_then(|[a, b]| combined(a.1.structure(), b.1.structure()));
-        both.unwrap_or_default()
+        self.media().map(|[a, b]| combined(a.1.structure(), b.1.structure())).unwrap_or_default()
     }
 
     fn breakpoints(&self, ray: &Ray, out: &mut Vec<f64>) {
@@ -56,11 +58,7 @@ impl Medium for Parts {
 
     fn coefficients(&self, at: &MediumPoint<'_>, out: &mut Coefficients<'_>) {
         for (share, medium) in self.media().into_iter().flatten() {
-            if share == 1.0 {
-                medium.coefficients(at, out);
-            } else {
-                add_share(share, medium, at, out);
-            }
+            add_share(share, medium, at, out);
         }
     }
 
@@ -74,7 +72,10 @@ impl Medium for Parts {
 }
 
 /// Adds a share of the coefficients of a medium.
-fn add_share(share: f64, medium: &dyn Medium, at: &MediumPoint<'_>, out: &mut Coefficients<'_>) {
+pub(crate) fn add_share(share: f64, medium: &dyn Medium, at: &MediumPoint<'_>, out: &mut Coefficients<'_>) {
+    if share == 1.0 {
+        return medium.coefficients(at, out);
+    }
     let bins = out.emission.len();
     with_buffer(3 * bins, |room| {
         room.fill(0.0);
@@ -100,11 +101,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn structures_combine_to_the_finer_one_or_not_at_all() {
+    fn structures_combine_to_the_finer_one_or_to_that_which_is_not_declared() {
         let smooth = |length_scale| Structure::Smooth { length_scale };
-        assert_eq!(combined(Structure::Homogeneous, smooth(0.1)), Some(smooth(0.1)));
-        assert_eq!(combined(smooth(0.2), smooth(0.1)), Some(smooth(0.1)));
-        assert_eq!(combined(smooth(0.2), Structure::Unknown { step: 0.1 }), None);
-        assert_eq!(combined(Structure::Unknown { step: 0.1 }, Structure::Homogeneous), None);
+        let (unknown, steps) =
+            (|step| Structure::Unknown { step }, Structure::Trapezium { step: 0.3, points: 5 });
+        assert_eq!(combined(Structure::Homogeneous, smooth(0.1)), smooth(0.1));
+        assert_eq!(combined(smooth(0.1), Structure::Homogeneous), smooth(0.1));
+        assert_eq!(combined(smooth(0.2), smooth(0.1)), smooth(0.1));
+        assert_eq!(combined(unknown(0.2), unknown(0.1)), unknown(0.1));
+        for declared in [Structure::Homogeneous, smooth(0.2)] {
+            for other in [unknown(0.1), steps] {
+                assert_eq!((combined(declared, other), combined(other, declared)), (other, other));
+            }
+        }
     }
 }

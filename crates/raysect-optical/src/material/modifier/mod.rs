@@ -10,5 +10,6 @@ mod volume_transform;
 
 pub use add::Add;
 pub use blend::Blend;
+pub(crate) use mixture::add_share;
 pub use roughen::Roughen;
 pub use volume_transform::VolumeTransform;

@@ -125,8 +125,7 @@ impl Parts {
 
     pub(super) fn check(&self, slice: &Slice) -> Result<(), OpticalError> {
         self.first.check(slice)?;
-        self.second.check(slice)?;
-        if self.scope == Scope::Surface { Ok(()) } else { self.check_media() }
+        self.second.check(slice)
     }
 
     pub(super) fn save(&self, saved: Saved, writer: &mut SceneWriter) -> Result<Saved, SaveError> {

@@ -5,6 +5,7 @@ use raysect_core::Ray;
 use raysect_core::save::{SaveError, Saved, SceneWriter};
 use raysect_math::AffineMatrix3D;
 
+use super::mixture::is_divided;
 use crate::material::{
     Coefficients, Context, Facts, Material, Medium, MediumPoint, PhaseFunction, Refraction, Scatter,
     Structure, SurfaceHit, scatters,
@@ -60,11 +61,17 @@ impl Material for VolumeTransform {
     }
 
     fn check(&self, slice: &Slice) -> Result<(), OpticalError> {
-        let mixed = self.base.medium().is_some_and(|m| scatters(m) && m.phase_function().is_none());
-        if mixed {
-            return Err(OpticalError::Modifier {
-                what: "a scattering mixture cannot be moved; move its parts",
-            });
+        if let Some(medium) = self.base.medium() {
+            if scatters(medium) && medium.phase_function().is_none() {
+                return Err(OpticalError::Modifier {
+                    what: "a scattering mixture cannot be moved; move its parts",
+                });
+            }
+            if is_divided(medium) {
+                return Err(OpticalError::Modifier {
+                    what: "a mixture of volumes that are integrated by different rules cannot be moved; move its parts",
+                });
+            }
         }
         self.base.check(slice)
     }

@@ -36,8 +36,8 @@ impl<F> fmt::Debug for ProfileVolume<F> {
 
 impl ProfileVolume<()> {
     /// Of the coefficients at density one, and a density between 0 and `largest` that knows its structure itself: a grid, a
-    /// mesh of tetrahedra, or what is turned around the z axis of the shape. Where the function has no value (NaN), as
-    /// outside of its grid, there is nothing.
+    /// mesh of tetrahedra, what is turned around the z axis of the shape, or a profile about a point or an axis. Where the
+    /// function has no value (NaN), as outside of its grid, there is nothing.
     ///
     /// ```
     /// use raysect_math::function::{Arg, Interpolation, Interpolator2DArray, axisymmetric, sample2d};
@@ -54,6 +54,17 @@ impl ProfileVolume<()> {
     /// let seen = Ray::new(Point3D::new(-5.0, 0.0, 0.0), [1.0, 0.0, 0.0].into()).trace(&world)?;
     /// // Twice the width of the ring.
     /// assert!((seen.samples()[0] - 2.0 * (0.05 * std::f64::consts::PI).sqrt()).abs() < 0.02);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// A radial profile, whose corners on a ray are known exactly:
+    /// ```
+    /// use raysect_math::Point3D;
+    /// use raysect_math::function::{Interpolation1D, Interpolator1DArray, spherical};
+    /// use raysect_optical::{ProfileVolume, UniformVolume};
+    /// let profile = Interpolator1DArray::new(&[0.0, 0.4, 0.5], &[1.0, 0.8, 0.0], Interpolation1D::Linear)?;
+    /// let ball = spherical(profile, Point3D::new(0.0, 0.0, 1.0));
+    /// let plasma = ProfileVolume::structured(UniformVolume::new().emission(2.0), ball, 1.0)?;
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///

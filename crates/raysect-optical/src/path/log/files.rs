@@ -10,11 +10,13 @@ use crate::OpticalError;
 
 /// The columns of a table.
 const TITLES: &str = "x [m],y [m],z [m],event,shape,name,material,inside,throughput before,throughput after,\
-                      radiance along [W/m²/sr/nm],radiance [W/m²/sr/nm]";
+                      radiance along [W/m²/sr/nm],radiance [W/m²/sr/nm],normal x,normal y,normal z,\
+                      local x [m],local y [m],local z [m]";
 
 impl LoggedPath {
     /// Saves it as comma separated values, a line for each vertex: place, event, what is there, throughput before and
-    /// after, radiance from the piece before and from the vertex. Throughputs and radiances are means over the bins.
+    /// after, radiance from the piece before and from the vertex, outward normal in the world, place in the shape.
+    /// Throughputs and radiances are means over the bins.
     ///
     /// # Errors
     /// [`OpticalError::File`]; an existing file is then as before.
@@ -40,7 +42,8 @@ impl LoggedPath {
 
     /// Saves it as one polyline [m] in VTK's legacy format. Its points have the throughput with which the path goes on
     /// (`throughput`), the radiance that the piece before and the vertex add (`radiance` [W/m²/sr/nm]), both as means
-    /// over the bins, and the number of the event in [`PathEvent::ALL`](super::PathEvent::ALL) (`event`).
+    /// over the bins, the number of the event in [`PathEvent::ALL`](super::PathEvent::ALL) (`event`), the outward normal in
+    /// the world (`normal`) and the place in the shape (`local_point` [m]), which are zero where there is none.
     ///
     /// # Errors
     /// [`OpticalError::File`]; an existing file is then as before.
@@ -54,7 +57,9 @@ impl LoggedPath {
             writeln!(out, "LINES 1 {}\n{count} {}\nPOINT_DATA {count}", count + 1, numbers.join(" "))?;
             path.write_scalars(out, "throughput double", |v| csv_number(v.mean_after()))?;
             path.write_scalars(out, "radiance double", |v| csv_number(v.mean_along() + v.mean_radiance()))?;
-            path.write_scalars(out, "event int", |v| (v.event as usize).to_string())
+            path.write_scalars(out, "event int", |v| (v.event as usize).to_string())?;
+            path.write_vectors(out, "normal", normal)?;
+            path.write_vectors(out, "local_point", local_point)
         })
     }
 
@@ -74,6 +79,20 @@ impl LoggedPath {
         })
     }
 
+    /// A vector of each vertex, of zeros where there is none.
+    fn write_vectors(
+        &self,
+        out: &mut dyn Write,
+        title: &str,
+        value: impl Fn(&PathVertex) -> Option<[f64; 3]>,
+    ) -> io::Result<()> {
+        writeln!(out, "VECTORS {title} double")?;
+        self.vertices.iter().try_for_each(|vertex| {
+            let [x, y, z] = value(vertex).unwrap_or_default().map(csv_number);
+            writeln!(out, "{x} {y} {z}")
+        })
+    }
+
     fn write_scalars(
         &self,
         out: &mut dyn Write,
@@ -83,6 +102,17 @@ impl LoggedPath {
         writeln!(out, "SCALARS {title} 1\nLOOKUP_TABLE default")?;
         self.vertices.iter().try_for_each(|vertex| writeln!(out, "{}", value(vertex)))
     }
+}
+
+/// The outward normal at a vertex in the world.
+fn normal(vertex: &PathVertex) -> Option<[f64; 3]> {
+    let normal = vertex.hit.as_ref()?.normal?;
+    Some([normal.x, normal.y, normal.z])
+}
+
+/// The place of a vertex in the shape [m].
+fn local_point(vertex: &PathVertex) -> Option<[f64; 3]> {
+    vertex.hit.as_ref().map(|hit| hit.local_point.to_array())
 }
 
 /// The line of a vertex.
@@ -103,6 +133,13 @@ fn row(vertex: &PathVertex) -> String {
         csv_text(material).into_owned(),
         inside.to_owned(),
         numbers.map(csv_number).join(","),
+        cells(normal(vertex)),
+        cells(local_point(vertex)),
     ]
     .join(",")
+}
+
+/// Three cells, which are empty if there is nothing.
+fn cells(vector: Option<[f64; 3]>) -> String {
+    vector.map_or_else(|| ",,".to_owned(), |vector| vector.map(csv_number).join(","))
 }

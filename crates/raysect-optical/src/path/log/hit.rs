@@ -1,7 +1,8 @@
 use raysect_core::NodeId;
+use raysect_math::{Normal3D, Point3D};
 
 /// What a path meets at a vertex.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct VertexHit {
     /// The node of the shape.
     pub node: NodeId,
@@ -13,4 +14,8 @@ pub struct VertexHit {
     pub material: String,
     /// True if the path arrives at the inner side of the surface, or is inside its volume.
     pub inside: bool,
+    /// The place in the space of the shape [m].
+    pub local_point: Point3D,
+    /// Outward unit normal of the surface, in world space; none where the volume scatters.
+    pub normal: Option<Normal3D>,
 }

@@ -6,8 +6,8 @@ mod hit;
 mod logged_path;
 mod vertex;
 
-use raysect_core::{BoundingBox3D, Ray};
-use raysect_math::{Point3D, Vector3D};
+use raysect_core::{BoundingBox3D, Ray, SurfacePoint};
+use raysect_math::{Normal3D, Point3D, Vector3D};
 
 pub use event::PathEvent;
 pub use hit::VertexHit;
@@ -50,8 +50,25 @@ impl PathLog {
         self.arrive(path, end.unwrap_or_else(|| outside(path.scene, ray)));
     }
 
-    /// Says what is at the place of arrival.
-    pub(super) fn meet(&mut self, path: &Path<'_>, instance: u32, inside: bool) {
+    /// Says which surface is at the place of arrival.
+    pub(super) fn meet_surface(&mut self, path: &Path<'_>, surface: &SurfacePoint) {
+        let at = (surface.local_point, Some(surface.normal));
+        self.meet(path, surface.instance, surface.exiting, at);
+    }
+
+    /// Says which volume scatters at the place of arrival.
+    pub(super) fn meet_volume(&mut self, path: &Path<'_>, instance: u32, point: Point3D) {
+        let to_local = &path.scene.instances[instance as usize].to_local;
+        self.meet(path, instance, true, (to_local.transform_point(point), None));
+    }
+
+    fn meet(
+        &mut self,
+        path: &Path<'_>,
+        instance: u32,
+        inside: bool,
+        (local_point, normal): (Point3D, Option<Normal3D>),
+    ) {
         let placed = &path.scene.instances[instance as usize];
         let compiled = &path.scene.compiled;
         self.shines = compiled.facts[instance as usize].emits;
@@ -62,6 +79,8 @@ impl PathLog {
                 shape: placed.primitive.kind(),
                 material: compiled.names[instance as usize].clone(),
                 inside,
+                local_point,
+                normal,
             });
         }
     }
