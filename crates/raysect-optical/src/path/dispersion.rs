@@ -206,6 +206,12 @@ impl Path<'_> {
         self.throughput.iter().fold(0.0, |a: f64, &b| if b > a { b } else { a })
     }
 
+    /// What all bins together carry, and the brightest of them.
+    #[cold]
+    pub(super) fn carried_now(&self) -> (f64, f64) {
+        (self.throughput.iter().sum(), self.brightest())
+    }
+
     /// What takes the brightest bin for roulette to what the surface has left of the light of all bins together, for
     /// what these and the brightest of them have carried before. A bin that has been drawn against the odds has had its
     /// luck: it is not to be killed for being dim.
@@ -217,7 +223,21 @@ impl Path<'_> {
 
     /// What a light emits towards a path that looks for it through given media, into `emitted`; `false` for nothing,
     /// also where another medium hides the light.
+    #[inline]
     pub(super) fn emission_of_light(
+        &mut self,
+        material: &dyn Material,
+        at: &SurfaceHit,
+        media: &MediaList,
+        index_use: IndexUse,
+    ) -> bool {
+        if !self.scene.compiled.any_medium {
+            return material.emit(at, self.context(), &mut self.emitted);
+        }
+        self.emission_in_media(material, at, media, index_use)
+    }
+
+    fn emission_in_media(
         &mut self,
         material: &dyn Material,
         at: &SurfaceHit,

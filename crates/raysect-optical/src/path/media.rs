@@ -212,9 +212,6 @@ impl<'a> Path<'a> {
     /// What refracts before and behind the surface of a light in given media, as a path would find it there; none if
     /// another medium hides it.
     pub(super) fn sides(&self, media: &MediaList, surface: &SurfacePoint) -> Option<(Side<'a>, Side<'a>)> {
-        if !self.scene.compiled.any_medium {
-            return Some((None, None));
-        }
         if !self.refracts(surface.instance) {
             let here = self.side_within(media);
             return Some((here, here));

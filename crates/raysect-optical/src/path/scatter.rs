@@ -46,9 +46,11 @@ impl Path<'_> {
         if density.is_nan() || density <= 0.0 {
             return Scatter::Absorbed;
         }
-        // A direction that the surface would never take carries nothing.
-        self.favour = if own > 0.0 { density / own } else { 1.0 };
-        let before = self.waves.by_bins.then(|| (self.throughput.iter().sum(), self.brightest()));
+        if density != own {
+            // A direction that the surface would never take carries nothing.
+            self.favour = if own > 0.0 { density / own } else { 1.0 };
+        }
+        let before = self.waves.by_bins.then(|| self.carried_now());
         self.evaluate(bsdf, incoming, outgoing);
         let inverse = 1.0 / density;
         self.throughput.iter_mut().zip(&self.reflected).for_each(|(t, f)| *t *= f * inverse);
@@ -135,7 +137,7 @@ impl Path<'_> {
     }
 
     /// Density [1/sr] of a direction that the surface itself chooses.
-    #[inline]
+    #[inline(always)]
     fn own_density<B: Bsdf + ?Sized>(&self, bsdf: &B, incoming: Vector3D, outgoing: Vector3D) -> f64 {
         if self.waves.by_bins {
             return self.density_by_bins(bsdf, incoming, outgoing);
@@ -144,7 +146,7 @@ impl Path<'_> {
     }
 
     /// The scattering function times cosine, into `reflected`.
-    #[inline]
+    #[inline(always)]
     fn evaluate<B: Bsdf + ?Sized>(&mut self, bsdf: &B, incoming: Vector3D, outgoing: Vector3D) {
         if self.waves.by_bins {
             return self.evaluate_by_bins(bsdf, incoming, outgoing);
