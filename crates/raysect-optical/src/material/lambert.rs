@@ -34,7 +34,7 @@ impl Lambert {
 }
 
 impl Bsdf for Lambert {
-    #[inline]
+    #[inline(always)]
     fn sample(&self, _: Vector3D, _: Context<'_>, rng: &mut Rng) -> Vector3D {
         hemisphere::sample_cosine(uniforms(rng))
     }

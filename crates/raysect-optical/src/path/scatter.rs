@@ -24,24 +24,40 @@ impl Path<'_> {
     ///
     /// The directions of the surface and those towards important things form one density; multiple importance
     /// sampling weighs it against the density of light sampling.
+    #[inline]
     pub fn scatter<B: Bsdf + ?Sized>(&mut self, bsdf: &B, hit: &SurfaceHit) -> Scatter {
+        if self.waves.by_bins {
+            return self.scatter_by_bins(bsdf, hit);
+        }
+        self.scatter_as::<false, B>(bsdf, hit)
+    }
+
+    /// Where each bin has indices of its own.
+    #[cold]
+    #[inline(never)]
+    fn scatter_by_bins<B: Bsdf + ?Sized>(&mut self, bsdf: &B, hit: &SurfaceHit) -> Scatter {
+        self.scatter_as::<true, B>(bsdf, hit)
+    }
+
+    #[inline(always)]
+    fn scatter_as<const BY_BINS: bool, B: Bsdf + ?Sized>(&mut self, bsdf: &B, hit: &SurfaceHit) -> Scatter {
         let frame = hit.frame();
         let incoming = frame.to_local(-hit.direction);
         if self.looks_for_lights() {
             let vertex = Vertex { point: hit.surface.point, instance: Some(hit.surface.instance) };
             if let Some(light) = &sample_lights(self.scene, &self.brightness, &vertex, &mut self.rng) {
                 let outgoing = frame.to_local(light.direction);
-                self.evaluate(bsdf, incoming, outgoing);
+                self.evaluate::<BY_BINS, B>(bsdf, incoming, outgoing);
                 if self.reflected.iter().any(|f| *f > 0.0) {
-                    let own = self.own_density(bsdf, incoming, outgoing);
+                    let own = self.own_density::<BY_BINS, B>(bsdf, incoming, outgoing);
                     let density = self.mixed_density(hit.surface.point, light.direction, own);
                     let from = self.origin(hit, light.direction);
                     self.add_light(&from, light, density);
                 }
             }
         }
-        let (outgoing, direction) = self.choose(bsdf, hit, &frame, incoming);
-        let own = self.own_density(bsdf, incoming, outgoing);
+        let (outgoing, direction) = self.choose::<BY_BINS, B>(bsdf, hit, &frame, incoming);
+        let own = self.own_density::<BY_BINS, B>(bsdf, incoming, outgoing);
         let density = self.mixed_density(hit.surface.point, direction, own);
         if density.is_nan() || density <= 0.0 {
             return Scatter::Absorbed;
@@ -50,8 +66,8 @@ impl Path<'_> {
             // A direction that the surface would never take carries nothing.
             self.favour = if own > 0.0 { density / own } else { 1.0 };
         }
-        let before = self.waves.by_bins.then(|| self.carried_now());
-        self.evaluate(bsdf, incoming, outgoing);
+        let before = BY_BINS.then(|| self.carried_now());
+        self.evaluate::<BY_BINS, B>(bsdf, incoming, outgoing);
         let inverse = 1.0 / density;
         self.throughput.iter_mut().zip(&self.reflected).for_each(|(t, f)| *t *= f * inverse);
         self.density = Some(density);
@@ -83,7 +99,7 @@ impl Path<'_> {
     }
 
     #[inline]
-    fn choose<B: Bsdf + ?Sized>(
+    fn choose<const BY_BINS: bool, B: Bsdf + ?Sized>(
         &mut self,
         bsdf: &B,
         hit: &SurfaceHit,
@@ -93,7 +109,7 @@ impl Path<'_> {
         if let Some(direction) = self.aimed_direction(hit.surface.point) {
             return (frame.to_local(direction), direction);
         }
-        let outgoing = if self.waves.by_bins {
+        let outgoing = if BY_BINS {
             self.sample_by_bins(bsdf, incoming)
         } else {
             bsdf.sample(incoming, self.context(), &mut self.rng)
@@ -138,8 +154,13 @@ impl Path<'_> {
 
     /// Density [1/sr] of a direction that the surface itself chooses.
     #[inline(always)]
-    fn own_density<B: Bsdf + ?Sized>(&self, bsdf: &B, incoming: Vector3D, outgoing: Vector3D) -> f64 {
-        if self.waves.by_bins {
+    fn own_density<const BY_BINS: bool, B: Bsdf + ?Sized>(
+        &self,
+        bsdf: &B,
+        incoming: Vector3D,
+        outgoing: Vector3D,
+    ) -> f64 {
+        if BY_BINS {
             return self.density_by_bins(bsdf, incoming, outgoing);
         }
         bsdf.pdf(incoming, outgoing, self.context())
@@ -147,8 +168,13 @@ impl Path<'_> {
 
     /// The scattering function times cosine, into `reflected`.
     #[inline(always)]
-    fn evaluate<B: Bsdf + ?Sized>(&mut self, bsdf: &B, incoming: Vector3D, outgoing: Vector3D) {
-        if self.waves.by_bins {
+    fn evaluate<const BY_BINS: bool, B: Bsdf + ?Sized>(
+        &mut self,
+        bsdf: &B,
+        incoming: Vector3D,
+        outgoing: Vector3D,
+    ) {
+        if BY_BINS {
             return self.evaluate_by_bins(bsdf, incoming, outgoing);
         }
         let at = self.context();
