@@ -319,7 +319,7 @@ impl<A: Attachment> Scene<A> {
         let mut best: Option<Candidate> = None;
         let prepared = TraversalRay::new(ray, leaving.map_or(0.0, |l| -l.zone));
         self.accelerator.visit(&prepared, ray.max_distance, &mut |index, limit| {
-            let Some(crossing) = self.nearest(index, ray, leaving, limit, scratch) else { return limit };
+            let Some(crossing) = self.hit_instance(index, ray, leaving, limit, scratch) else { return limit };
             let nearer = best.is_none_or(|b| {
                 crossing.distance < b.crossing.distance
                     || (crossing.distance == b.crossing.distance && index < b.instance)
@@ -335,12 +335,12 @@ impl<A: Attachment> Scene<A> {
     #[inline]
     fn hit_few(&self, ray: &Ray, leaving: Option<&Leaving>, scratch: &mut Scratch) -> Option<Candidate> {
         if let [_] = self.instances[..] {
-            let crossing = self.nearest(0, ray, leaving, ray.max_distance, scratch)?;
+            let crossing = self.hit_instance(0, ray, leaving, ray.max_distance, scratch)?;
             return Some(Candidate { instance: 0, crossing });
         }
         let (mut best, mut limit) = (None, ray.max_distance);
         for index in 0..self.instances.len() as u32 {
-            let Some(crossing) = self.nearest(index, ray, leaving, limit, scratch) else { continue };
+            let Some(crossing) = self.hit_instance(index, ray, leaving, limit, scratch) else { continue };
             // Among equals the first one stays.
             if best.is_none_or(|b: Candidate| crossing.distance < b.crossing.distance) {
                 best = Some(Candidate { instance: index, crossing });
@@ -350,26 +350,9 @@ impl<A: Attachment> Scene<A> {
         best
     }
 
-    /// As [`hit_instance`](Self::hit_instance). A ray that leaves no surface does not pay for what one that does may need.
-    #[inline(always)]
-    fn nearest(
-        &self,
-        index: u32,
-        ray: &Ray,
-        leaving: Option<&Leaving>,
-        limit: f64,
-        scratch: &mut Scratch,
-    ) -> Option<Crossing> {
-        if leaving.is_some() {
-            return self.hit_instance(index, ray, leaving, limit, scratch);
-        }
-        let instance = &self.instances[index as usize];
-        let mut room = None;
-        instance.primitive.hit(instance.local(ray, &mut room), Interval::new(0.0, limit), scratch)
-    }
-
     /// The nearest hit of one instance alone, up to the distance `limit`.
-    #[inline]
+    // A ray that leaves no surface does not pay for what one that does may need.
+    #[inline(always)]
     pub fn hit_instance(
         &self,
         index: u32,
@@ -378,18 +361,33 @@ impl<A: Attachment> Scene<A> {
         limit: f64,
         scratch: &mut Scratch,
     ) -> Option<Crossing> {
-        let instance = &self.instances[index as usize];
-        let returns = leaving.filter(|leaving| leaving.instance == index);
-        if instance.convex && returns.is_some_and(|leaving| !leaving.departure.inward) {
+        if let Some(leaving) = leaving {
+            return self.hit_leaving(index, ray, leaving, limit, scratch);
+        }
+        let (instance, mut room) = (&self.instances[index as usize], None);
+        instance.primitive.hit(instance.local(ray, &mut room), Interval::new(0.0, limit), scratch)
+    }
+
+    /// The same for a ray that leaves a surface, of this instance or of another one.
+    #[inline]
+    fn hit_leaving(
+        &self,
+        index: u32,
+        ray: &Ray,
+        leaving: &Leaving,
+        limit: f64,
+        scratch: &mut Scratch,
+    ) -> Option<Crossing> {
+        let (instance, returns) = (&self.instances[index as usize], leaving.instance == index);
+        if returns && instance.convex && !leaving.departure.inward {
             return None;
         }
         let mut room = None;
         let local = instance.local(ray, &mut room);
-        match (returns, leaving) {
-            (Some(leaving), _) => instance.hit_after(local, leaving, limit, scratch),
-            (None, None) => instance.primitive.hit(local, Interval::new(0.0, limit), scratch),
-            (None, Some(leaving)) => self.hit_other(index, [ray, local], leaving, limit, scratch),
+        if returns {
+            return instance.hit_after(local, leaving, limit, scratch);
         }
+        self.hit_other(index, [ray, local], leaving, limit, scratch)
     }
 
     /// The nearest hit of an instance by a ray, in the world and in its space, that leaves another one.

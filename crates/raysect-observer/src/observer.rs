@@ -345,7 +345,8 @@ impl<S: Sensor> Observer<S> {
     /// Observes until a rule says stop.
     ///
     /// # Errors
-    /// As [`observe`](Self::observe), and [`ObserverError::Stop`] for a rule that cannot work.
+    /// As [`observe`](Self::observe); [`ObserverError::Math`] for an error, a share or a level that makes no sense,
+    /// [`ObserverError::Stop`] for no samples.
     #[doc(alias(
         "MonoAdaptiveSampler2D",
         "RGBAdaptiveSampler2D",

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use raysect_math::MathError;
+
 use crate::frame::Estimate;
 use crate::{Frame, ObserverError};
 
@@ -130,23 +132,19 @@ impl Stop {
 
     pub(crate) fn check(&self) -> Result<(), ObserverError> {
         for error in [self.relative, self.absolute].into_iter().flatten() {
-            if error.is_nan() || error <= 0.0 {
-                return Err(ObserverError::Stop("the error to be reached must be positive"));
-            }
+            MathError::check(error > 0.0, error, "error to be reached", "", "positive")?;
         }
         if self.samples == Some(0) {
             return Err(ObserverError::Stop("no samples at all"));
         }
         let share = self.scope.share();
-        if !(share > 0.0 && share <= 1.0) {
-            return Err(ObserverError::Stop("the share of pixels must lie in 0 … 1, without 0"));
+        let admitted = share > 0.0 && share <= 1.0;
+        MathError::check(admitted, share, "share of the pixels", "", "0 … 1, without 0")?;
+        if let Scope::Above { level, .. } = self.scope {
+            let (admitted, name) = (level > 0.0 && level.is_finite(), "level of the pixels that count");
+            MathError::check(admitted, level, name, "", "positive and finite, in the unit of the pipeline")?;
         }
-        match self.scope {
-            Scope::Above { level, .. } if !(level > 0.0 && level.is_finite()) => {
-                Err(ObserverError::Stop("the level of the pixels that count must be positive and finite"))
-            }
-            _ => Ok(()),
-        }
+        Ok(())
     }
 
     /// True if an error is to be reached.

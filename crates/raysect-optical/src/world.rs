@@ -51,6 +51,7 @@ impl Attachment for Optics {
     ) -> Result<Illumination, Box<dyn std::error::Error + Send + Sync>> {
         for instance in instances {
             let material = instance.attached.material();
+            material.facts().check().map_err(OpticalError::from)?;
             if material.medium().is_some() && !instance.primitive.is_solid() {
                 let (material, shape) = (material.facts().name, format!("{instance:?}"));
                 return Err(OpticalError::NoVolume { material, shape }.into());

@@ -182,7 +182,6 @@ impl Material for Dielectric {
     }
 
     fn check(&self, slice: &Slice) -> Result<(), OpticalError> {
-        self.facts().check()?;
         let width = slice.bin_width();
         for function in [&self.refraction.index, &self.refraction.external_index] {
             for (i, &value) in slice.table(function).iter().enumerate() {

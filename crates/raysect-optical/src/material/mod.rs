@@ -124,20 +124,11 @@ impl Facts {
         Self { emits: true, absorbs: true, ..Self::named(name) }
     }
 
-    /// Refuses what no material has.
-    ///
-    /// # Errors
-    /// [`MathError::OutOfRange`] unless the importance is finite and not negative.
-    pub fn check(&self) -> Result<(), OpticalError> {
+    /// Refuses an importance that is negative or not finite; a scene asks it of all its materials.
+    pub(crate) fn check(&self) -> Result<(), MathError> {
         let admitted = self.importance >= 0.0 && self.importance.is_finite();
-        MathError::check(
-            admitted,
-            self.importance,
-            "importance of a material",
-            "",
-            "finite and not negative",
-        )?;
-        Ok(())
+        let name = "importance of a material";
+        MathError::check(admitted, self.importance, name, "", "finite and not negative").map(drop)
     }
 
     /// The same of a surface that reads no refractive index.
@@ -187,13 +178,12 @@ pub trait Material: Send + Sync + 'static {
         Facts::named(short_name(std::any::type_name::<Self>()))
     }
 
-    /// Refuses settings that make no sense, and a range of wavelengths that it cannot describe; by default
-    /// [what no material has](Facts::check).
+    /// Refuses a range of wavelengths that it cannot describe.
     ///
     /// # Errors
     /// What is wrong there.
     fn check(&self, _slice: &Slice) -> Result<(), OpticalError> {
-        self.facts().check()
+        Ok(())
     }
 
     /// What a file needs to know to make it again; see [`raysect_core::save`]. It refers to a

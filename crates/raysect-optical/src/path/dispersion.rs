@@ -223,21 +223,7 @@ impl Path<'_> {
 
     /// What a light emits towards a path that looks for it through given media, into `emitted`; `false` for nothing,
     /// also where another medium hides the light.
-    #[inline]
-    pub(super) fn emission_of_light(
-        &mut self,
-        material: &dyn Material,
-        at: &SurfaceHit,
-        media: &MediaList,
-        index_use: IndexUse,
-    ) -> bool {
-        if !self.scene.compiled.any_medium {
-            return material.emit(at, self.context(), &mut self.emitted);
-        }
-        self.emission_in_media(material, at, media, index_use)
-    }
-
-    fn emission_in_media(
+    pub(super) fn emission_in_media(
         &mut self,
         material: &dyn Material,
         at: &SurfaceHit,

@@ -79,6 +79,11 @@ struct Part<'a> {
     share: f64,
 }
 
+/// True if what happens along a ray can be told, and needs no places of its own at which it is asked.
+fn is_declared(structure: Structure) -> bool {
+    matches!(structure, Structure::Homogeneous | Structure::Smooth { .. })
+}
+
 impl<'a> Part<'a> {
     fn whole(instance: u32, medium: &'a dyn Medium) -> Self {
         Self { instance, number: 0, medium, share: 1.0 }
@@ -91,10 +96,7 @@ impl<'a> Part<'a> {
 
     fn count(self, next: &mut u32, each: &mut dyn FnMut(Self, Structure)) {
         let structure = self.medium.structure();
-        let parts = match structure {
-            Structure::Homogeneous | Structure::Smooth { .. } => None,
-            Structure::Unknown { .. } | Structure::Trapezium { .. } => self.medium.parts(),
-        };
+        let parts = if is_declared(structure) { None } else { self.medium.parts() };
         for (share, medium) in parts.into_iter().flatten() {
             Part { medium, share: self.share * share, ..self }.count(next, each);
         }
@@ -163,7 +165,10 @@ impl<'a> Path<'a> {
 
     /// The same, with mixtures taken apart whose structure is not declared.
     fn each_part(&self, media: &MediaList, mut each: impl FnMut(Part<'a>, Structure)) {
-        self.each_medium(media, |instance, medium| Part::whole(instance, medium).each(&mut each));
+        self.each_medium(media, |instance, medium| {
+            let (whole, structure) = (Part::whole(instance, medium), medium.structure());
+            if is_declared(structure) { each(whole, structure) } else { whole.each(&mut each) }
+        });
     }
 
     /// Asks one medium for its coefficients at a place along a ray.
@@ -506,7 +511,7 @@ impl<'a> Path<'a> {
         let (emission, attenuation) =
             (&mut room.emission[row..row + bins], &mut room.attenuation[row..row + bins]);
         self.each_part(media, |part, structure| {
-            if matches!(structure, Structure::Homogeneous | Structure::Smooth { .. }) {
+            if is_declared(structure) {
                 let mut out = Coefficients {
                     emission: &mut *emission,
                     attenuation: &mut *attenuation,

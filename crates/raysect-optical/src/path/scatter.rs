@@ -220,8 +220,13 @@ impl Path<'_> {
         let at = SurfaceHit { surface: *surface, direction: light.direction };
         let material = scene.instances[instance as usize].attached.material();
         // The light stands in other media than the place that it is looked for from; one that a medium hides is not met.
-        let index_use = scene.compiled.facts[instance as usize].index_use;
-        if self.emission_of_light(material, &at, &around, index_use) {
+        let emits = if scene.compiled.any_medium {
+            let index_use = scene.compiled.facts[instance as usize].index_use;
+            self.emission_in_media(material, &at, &around, index_use)
+        } else {
+            material.emit(&at, self.context(), &mut self.emitted)
+        };
+        if emits {
             let weight = heuristic(light.density, density) / light.density;
             let found = self.reflected.iter().zip(&self.emitted);
             let found = self.throughput.iter().zip(found);

@@ -107,7 +107,10 @@ impl Parts {
     pub(super) fn facts(&self, name: impl FnOnce(&str, &str) -> String) -> Facts {
         let (first, second) = (self.first.facts(), self.second.facts());
         let name = name(&first.name, &second.name);
-        let importance = first.importance.max(second.importance);
+        // One that is impossible is not hidden by the other.
+        let impossible = [&first, &second].into_iter().find(|facts| facts.check().is_err());
+        let importance =
+            impossible.map_or_else(|| first.importance.max(second.importance), |facts| facts.importance);
         let disperses = first.disperses || second.disperses;
         if self.scope == Scope::Volume {
             return Facts { name, importance, disperses, ..first };

@@ -128,7 +128,6 @@ impl Material for UniformVolume {
     }
 
     fn check(&self, slice: &Slice) -> Result<(), OpticalError> {
-        self.facts().check()?;
         let scattering = self.scattering.as_ref().map(|s| &s.0);
         let known = [(&self.absorption.as_ref(), "absorption"), (&scattering, "scattering")];
         for (table, name) in known {
