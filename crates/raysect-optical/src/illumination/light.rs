@@ -141,7 +141,7 @@ fn total_weight(scene: &Scene, brightness: &[f64], at: &Vertex) -> f64 {
 }
 
 /// Draws a light and a direction towards it; none if no light can be sampled from there.
-#[inline]
+#[inline(always)]
 pub(crate) fn sample_lights(
     scene: &Scene,
     brightness: &[f64],

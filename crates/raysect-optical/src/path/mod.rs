@@ -352,7 +352,7 @@ impl<'a> Path<'a> {
     /// (J. Arvo and D. Kirk, *Particle Transport and Image Synthesis*, SIGGRAPH 1990). What counts is what the
     /// surfaces have left of the light, not how often paths were aimed the same way. Also ends paths that are too
     /// deep, which is not fair and therefore reported.
-    #[inline]
+    #[inline(always)]
     fn survives(&mut self) -> bool {
         let largest = self.brightest();
         if largest <= 0.0 {

@@ -118,7 +118,7 @@ impl Path<'_> {
     }
 
     /// A direction towards something important, for the share of the paths that are aimed.
-    #[inline]
+    #[inline(always)]
     pub(super) fn aimed_direction(&mut self, from: Point3D) -> Option<Vector3D> {
         if self.targets().is_none() || !self.rng.probability(self.settings.important_path_weight) {
             return None;
