@@ -78,7 +78,7 @@ pub(crate) fn pixel_bits(frame: &Frame, pixel: usize) -> Vec<u64> {
 }
 
 /// What a frame has of a pixel, as bits, whatever the others have seen: the error of a pixel is not among it, since the
-/// skewness of all samples of the frame makes it longer.
+/// other pixels of the frame make it longer.
 pub(crate) fn own_bits(frame: &Frame, pixel: usize) -> Vec<u64> {
     let means = (0..frame.channels().len()).map(|channel| frame.pixel(pixel, channel).value);
     let moments = means.chain([frame.variance_of_variance(pixel), frame.largest(pixel)]);

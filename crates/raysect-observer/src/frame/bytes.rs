@@ -66,7 +66,7 @@ impl Frame {
         if !lanes.is_empty() && observed.len() != shape.pixels() {
             return Err(format!("{} pixels of '{name}' instead of {}", observed.len(), shape.pixels()));
         }
-        let squared_skewness = 0.0;
-        Ok(Self { name, unit, shape, channels, fingerprint, observed, lanes, squared_skewness }.settled())
+        Ok(Self { name, unit, shape, channels, fingerprint, observed, lanes, stretches: Vec::new() }
+            .settled())
     }
 }

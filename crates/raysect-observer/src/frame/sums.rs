@@ -159,26 +159,35 @@ impl Sums {
         Moments::read(self.closed_blocks(pixel)).merged(&Moments::read(self.open_block(pixel)))
     }
 
-    /// Mean and standard error of a pixel in a channel without regard to skewness; see
-    /// [`Frame::pixel`](super::Frame::pixel).
+    /// Mean and standard error of a pixel in a channel, not made longer; see [`Frame::pixel`](super::Frame::pixel).
     pub(crate) fn estimate(&self, pixel: usize, channel: usize) -> Estimate {
         let (closed, open) = (self.closed_blocks(pixel), self.open_block(pixel));
-        let (n, rest) = (closed[0], open[0]);
-        let (at, rest_at) = (HEADER + CLOSED * channel, HEADER + OPEN * channel);
-        let (mean, squares, pairs) = (closed[at], closed[at + 1], closed[at + 2]);
-        let (rest_mean, rest_squares) = (open[rest_at], open[rest_at + 1]);
-        if n == 0.0 {
-            let error = if rest < 2.0 { f64::INFINITY } else { (rest_squares / (rest - 1.0) / rest).sqrt() };
-            return Estimate { value: rest_mean, error };
-        }
-        let variance = pairs + squares * (n / (n - 1.0)) * (4.0 / (n * n));
-        // Squares about a mean of n samples that are independent of them are too large by 1 + 1/n.
-        let difference = rest_mean - mean;
-        let rest_variance = (rest_squares + rest * difference * difference) * (n / (n + 1.0));
-        let total = n + rest;
-        Estimate {
-            value: mean + difference * (rest / total),
-            error: (variance + rest_variance).sqrt() / total,
-        }
+        let total = closed[0] + open[0];
+        let (mean, rest_mean) = (closed[HEADER + CLOSED * channel], open[HEADER + OPEN * channel]);
+        let value = if closed[0] == 0.0 { rest_mean } else { mean + (rest_mean - mean) * (open[0] / total) };
+        Estimate { value, error: squared_error_of_sum(closed, open, channel).sqrt() / total }
     }
+
+    /// Sum over all channels of the squared standard errors of the sum of all samples of a pixel.
+    pub(crate) fn squared_errors_of_sums(&self, pixel: usize) -> f64 {
+        let (closed, open) = (self.closed_blocks(pixel), self.open_block(pixel));
+        (0..self.channels).map(|channel| squared_error_of_sum(closed, open, channel)).sum()
+    }
+}
+
+/// Squared standard error of the sum of all samples in the blocks of a pixel, in a channel.
+#[inline]
+fn squared_error_of_sum(closed: &[f64], open: &[f64], channel: usize) -> f64 {
+    let (n, rest) = (closed[0], open[0]);
+    let (at, rest_at) = (HEADER + CLOSED * channel, HEADER + OPEN * channel);
+    let (mean, squares, pairs) = (closed[at], closed[at + 1], closed[at + 2]);
+    let (rest_mean, rest_squares) = (open[rest_at], open[rest_at + 1]);
+    if n == 0.0 {
+        return if rest < 2.0 { f64::INFINITY } else { rest_squares / (rest - 1.0) * rest };
+    }
+    let variance = pairs + squares * (n / (n - 1.0)) * (4.0 / (n * n));
+    // Squares about a mean of n samples that are independent of them are too large by 1 + 1/n.
+    let difference = rest_mean - mean;
+    let rest_variance = (rest_squares + rest * difference * difference) * (n / (n + 1.0));
+    variance + rest_variance
 }

@@ -3,7 +3,7 @@ use raysect_math::{Rng, Statistics};
 use super::*;
 
 /// A frame of one pixel with these samples.
-fn frame_of(samples: &[f64]) -> Frame {
+pub(super) fn frame_of(samples: &[f64]) -> Frame {
     let mut frame = Frame::new("test", "1");
     frame.prepare(FrameShape::Single, vec!["a".into(), "dark".into()], "x", 0, &[true]);
     let mut sums = frame.take_lane(0);
@@ -117,64 +117,6 @@ fn a_frame_takes_nothing_else() {
     assert!(frame.check(shape, &channels, "another range").is_err());
     frame.clear();
     assert!(frame.check(shape, &channels, "another range").is_ok());
-}
-
-/// A frame of several pixels with samples of their own.
-fn frame_of_pixels(pixels: usize, mut samples: impl FnMut(usize) -> Vec<f64>) -> Frame {
-    let mut frame = Frame::new("test", "1");
-    let shape = FrameShape::Line(pixels);
-    frame.prepare(shape, vec!["a".into(), "dark".into()], "x", 0, &vec![true; pixels]);
-    let mut sums = frame.take_lane(0);
-    for pixel in 0..pixels {
-        let one = frame_of(&samples(pixel)).take_lane(0);
-        let (closed, open) = (one.closed.len(), one.open.len());
-        sums.closed[pixel * closed..(pixel + 1) * closed].copy_from_slice(&one.closed);
-        sums.open[pixel * open..(pixel + 1) * open].copy_from_slice(&one.open);
-    }
-    frame.put_lane(0, sums);
-    frame
-}
-
-/// Shares of the 68 % and the 95 % intervals of log-normal samples, ln x = 0 ± 1, that cover the truth: by the plain
-/// error of the mean, and by that of a frame.
-fn coverage_of_log_normal(count: u64) -> [(f64, f64); 2] {
-    let (mut covered, mut rng) = ([(0.0, 0.0); 2], Rng::new(5));
-    let (frames, pixels) = (100, 100);
-    for _ in 0..frames {
-        // Bright pixels and dark ones.
-        let scale = |pixel: usize| 1.0 + pixel as f64;
-        let frame = frame_of_pixels(pixels, |pixel| {
-            (0..count).map(|_| scale(pixel) * rng.normal(0.0, 1.0).exp()).collect()
-        });
-        for pixel in 0..pixels {
-            let truth = 0.5f64.exp() * scale(pixel);
-            for (covered, found) in covered.iter_mut().zip([frame.normal(pixel, 0), frame.pixel(pixel, 0)]) {
-                let z = (found.value - truth).abs() / found.error;
-                covered.0 += f64::from(z < 1.0) / (frames * pixels) as f64;
-                covered.1 += f64::from(z < 1.96) / (frames * pixels) as f64;
-            }
-        }
-    }
-    covered
-}
-
-#[test]
-fn errors_of_skewed_samples_are_longer_and_cover_what_they_should() {
-    let good = |(one, two): (f64, f64)| (one - 0.6827).abs() < 0.03 && (two - 0.95).abs() < 0.02;
-    for count in [96, 160, 480] {
-        let [plain, found] = coverage_of_log_normal(count);
-        println!("{count} samples: plain {plain:?}, found {found:?}");
-        assert!(good(found) && (count > 160 || !good(plain)), "{count}: {plain:?} {found:?}");
-    }
-    // Of symmetric samples nothing is changed, nor is it of many.
-    let mut rng = Rng::new(11);
-    let even: Vec<f64> = (0..640).map(|_| rng.uniform()).collect();
-    let skewed: Vec<f64> = (0..64_000).map(|_| rng.uniform().ln().powi(2)).collect();
-    for samples in [even, skewed] {
-        let frame = frame_of(&samples);
-        let factor = frame.pixel(0, 0).error / frame.normal(0, 0).error;
-        assert!((1.0..1.001).contains(&factor), "{factor}");
-    }
 }
 
 #[test]
