@@ -206,14 +206,34 @@ pub struct Leaving {
 impl Leaving {
     /// For a ray that arrived along `arrived` at `surface` and leaves along `towards` (both unit vectors).
     /// `before` is where the arriving ray itself came from.
+    // Written so that the answer is made where it is wanted: it is too large to be copied in passing.
+    #[inline]
     pub fn new(surface: &SurfacePoint, arrived: Vector3D, towards: Vector3D, before: Option<&Self>) -> Self {
+        if let Some(before) = before.filter(|b| surface.distance <= b.zone) {
+            return Self::departing(surface, arrived, towards).remembering(before);
+        }
+        Self::departing(surface, arrived, towards)
+    }
+
+    /// The same for a ray whose departure is kept: from where it came is replaced by where it now is.
+    #[inline]
+    pub fn renew(kept: &mut Option<Self>, surface: &SurfacePoint, arrived: Vector3D, towards: Vector3D) {
+        if let Some(before) = kept.as_ref().filter(|b| surface.distance <= b.zone) {
+            *kept = Some(Self::departing(surface, arrived, towards).remembering(before));
+            return;
+        }
+        *kept = Some(Self::departing(surface, arrived, towards));
+    }
+
+    #[inline(always)]
+    fn departing(surface: &SurfacePoint, arrived: Vector3D, towards: Vector3D) -> Self {
         let cosine = surface.normal.dot(towards);
         // A chord that is thinner than rounding may end where the normal still faces the ray: what goes straight on has
         // passed it all the same.
         let inward = if towards == arrived { !surface.exiting } else { cosine < 0.0 };
         let departure =
             Departure { inward, bound: surface.bound / cosine.abs().max(1e-12), feature: surface.feature };
-        let mut leaving = Self {
+        Self {
             departure,
             grazes: cosine.abs() < GRAZING,
             instance: surface.instance,
@@ -222,16 +242,12 @@ impl Leaving {
             arrived,
             towards,
             cluster: [(u32::MAX, [0.0; 3]); CLUSTER],
-        };
-        if let Some(before) = before.filter(|b| surface.distance <= b.zone) {
-            leaving.remember(before);
         }
-        leaving
     }
 
     /// Takes over what coincides here: the same place as before, left anew.
     #[cold]
-    fn remember(&mut self, before: &Self) {
+    fn remembering(mut self, before: &Self) -> Self {
         let towards = before.towards.to_array().map(|x| x as f32);
         let known = &before.cluster[..before.clustered as usize];
         for &(instance, direction) in known.iter().chain([&(before.instance, towards)]) {
@@ -240,6 +256,7 @@ impl Leaving {
                 self.clustered += 1;
             }
         }
+        self
     }
 
     /// Notes that the ray has gone through another surface at the same place, too.
@@ -433,6 +450,7 @@ impl<A: Attachment> Scene<A> {
     }
 
     /// Everything about the surface at a hit.
+    #[inline]
     pub fn finish(&self, ray: &Ray, hit: &Candidate) -> SurfacePoint {
         let instance = &self.instances[hit.instance as usize];
         if instance.in_place {
@@ -480,6 +498,7 @@ impl<A: Attachment> Scene<A> {
 
     /// The surface at a point that was drawn on an instance, as a ray from `from` along the unit vector `direction`
     /// meets it at `distance`.
+    #[inline]
     pub fn sampled_surface(
         &self,
         index: u32,

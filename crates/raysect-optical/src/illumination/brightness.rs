@@ -48,14 +48,15 @@ fn mean_radiance(scene: &Scene, light: &Light, slice: &Slice) -> f64 {
     let mut sum = 0.0;
     for sight in 0..SIGHTS {
         let from = light.sphere.centre + spiral(sight) * (DISTANCE * light.sphere.radius);
-        let Some((direction, _, surface)) = light.sample(scene, from, &mut rng) else { continue };
-        let ray = Ray::new(from, direction);
-        let surface = surface.or_else(|| {
+        let Some(drawn) = light.sample(scene, from, 0, &mut rng) else { continue };
+        let direction = drawn.direction;
+        let hit = drawn.hit.or_else(|| {
+            let ray = Ray::new(from, direction);
             let crossing = scene.hit_instance(light.instance, &ray, None, f64::INFINITY, &mut scratch)?;
-            Some(scene.finish(&ray, &Candidate { instance: light.instance, crossing }))
+            let surface = scene.finish(&ray, &Candidate { instance: light.instance, crossing });
+            Some(SurfaceHit { surface, direction })
         });
-        let Some(surface) = surface else { continue };
-        if material.emit(&SurfaceHit { surface, direction }, context, &mut bins) {
+        if hit.is_some_and(|hit| material.emit(&hit, context, &mut bins)) {
             sum += bins.iter().filter(|radiance| radiance.is_finite() && **radiance > 0.0).sum::<f64>();
         }
     }

@@ -1,7 +1,7 @@
 use raysect_core::{BoundingSphere3D, Instance, SurfacePoint, SurfaceSampling};
 use raysect_math::{Normal3D, Point3D, Rng, Vector3D};
 
-use crate::{Optics, Scene};
+use crate::{Optics, Scene, SurfaceHit};
 
 /// An emitting surface that is sampled by its shape.
 #[derive(Debug, Clone, Copy)]
@@ -33,8 +33,8 @@ pub struct LightSample {
     pub direction: Vector3D,
     /// Density of the choice, that of the light included [1/sr].
     pub density: f64,
-    /// The point that was drawn; none where only a direction was.
-    pub surface: Option<SurfacePoint>,
+    /// The light at the point that was drawn, as a path in that direction meets it; none where only a direction was drawn.
+    pub hit: Option<SurfaceHit>,
 }
 
 impl Light {
@@ -82,19 +82,21 @@ impl Light {
         self.volume_scale * instance.to_local.transform_normal_with_inverse(normal).length()
     }
 
+    /// Draws a direction, as the number of a light that is chosen with certainty.
     #[inline]
     pub(super) fn sample(
         &self,
         scene: &Scene,
         from: Point3D,
+        light: u32,
         rng: &mut Rng,
-    ) -> Option<(Vector3D, f64, Option<SurfacePoint>)> {
+    ) -> Option<LightSample> {
         let instance = &scene.instances[self.instance as usize];
         let local_from = instance.to_local.transform_point(from);
         if self.sampling == SurfaceSampling::SolidAngle {
             let s = instance.primitive.sample_direction(local_from, [rng.uniform(), rng.uniform()])?;
             let direction = instance.to_world.transform_vector(s.direction).normalise_unchecked();
-            return Some((direction, s.density, None));
+            return Some(LightSample { light, direction, density: s.density, hit: None });
         }
         let u = [rng.uniform(), rng.uniform(), rng.uniform()];
         let s = instance.primitive.sample_surface(local_from, u)?;
@@ -107,7 +109,8 @@ impl Light {
         if cosine == 0.0 || distance == 0.0 {
             return None;
         }
-        Some((direction, s.density / self.area_scale(instance, s.normal) * squared / cosine, Some(surface)))
+        let density = s.density / self.area_scale(instance, s.normal) * squared / cosine;
+        Some(LightSample { light, direction, density, hit: Some(SurfaceHit { surface, direction }) })
     }
 
     /// Density [1/sr] with which a surface point on the light is found by sampling from a point.
@@ -153,8 +156,7 @@ pub(crate) fn sample_lights(
         if light.weight(scene, at) == 0.0 {
             return None;
         }
-        let (direction, density, surface) = light.sample(scene, at.point, rng)?;
-        return Some(LightSample { light: 0, direction, density, surface });
+        return light.sample(scene, at.point, 0, rng);
     }
     let total = total_weight(scene, brightness, at);
     if total.is_nan() || total <= 0.0 {
@@ -173,8 +175,9 @@ pub(crate) fn sample_lights(
         }
     }
     let (index, weight) = chosen?;
-    let (direction, density, surface) = lights[index].sample(scene, at.point, rng)?;
-    Some(LightSample { light: index as u32, direction, density: density * weight / total, surface })
+    let mut drawn = lights[index].sample(scene, at.point, index as u32, rng)?;
+    drawn.density = drawn.density * weight / total;
+    Some(drawn)
 }
 
 /// Density [1/sr] with which [`sample_lights`] finds a point on a light.

@@ -75,6 +75,11 @@ impl Coincident {
     fn as_slice(&self) -> &[(u32, bool)] {
         &self.instances[..self.count]
     }
+
+    /// Notes that a ray has gone through these surfaces, too.
+    pub(super) fn note_passed(&self, leaving: &mut Leaving) {
+        self.as_slice().iter().for_each(|(instance, _)| leaving.passed(*instance));
+    }
 }
 
 impl<'a> Path<'a> {
@@ -220,9 +225,12 @@ impl<'a> Path<'a> {
     }
 
     /// Follows the path through a surface and those that coincide with it, into or out of what lies behind.
-    pub(super) fn change_medium(&mut self, surface: &SurfacePoint, leaving: &mut Leaving) {
+    pub(super) fn change_medium(&mut self, surface: &SurfacePoint) {
         let mut media = self.media;
-        let consistent = self.pass_into(&mut media, surface, leaving);
+        let consistent = self.pass_into(&mut media, surface);
+        if let Some(leaving) = &mut self.leaving {
+            self.coincident.note_passed(leaving);
+        }
         self.ledger.inconsistencies += u64::from(!consistent);
         self.media = media;
         if self.media.count > 1 && self.refracts(surface.instance) {
@@ -253,16 +261,10 @@ impl<'a> Path<'a> {
 
     /// Changes a list as a way through the surface of the moment does, and through those that coincide with it;
     /// `false` if that does not agree with the list.
-    pub(super) fn pass_into(
-        &self,
-        media: &mut MediaList,
-        surface: &SurfacePoint,
-        leaving: &mut Leaving,
-    ) -> bool {
+    pub(super) fn pass_into(&self, media: &mut MediaList, surface: &SurfacePoint) -> bool {
         let mut consistent = self.change_list(media, surface);
         for &(instance, exiting) in self.coincident.as_slice() {
             consistent &= media.cross(instance, exiting);
-            leaving.passed(instance);
         }
         consistent
     }

@@ -302,11 +302,10 @@ impl<'a> Path<'a> {
                 let chosen = self.density.is_some();
                 log.leave(self, PathEvent::of(scatter, chosen, at.leads_through(direction)));
             }
-            let mut leaving = Leaving::new(surface, ray.direction, direction, self.leaving.as_ref());
+            Leaving::renew(&mut self.leaving, surface, ray.direction, direction);
             if self.scene.compiled.any_medium && at.leads_through(direction) {
-                self.change_medium(surface, &mut leaving);
+                self.change_medium(surface);
             }
-            self.leaving = Some(leaving);
             // A ray that ends somewhere ends there also behind a transparent surface, but not round a corner.
             pieces &= matches!(scatter, Scatter::PassThrough);
             let rest = if pieces { ray.max_distance - surface.distance } else { f64::INFINITY };

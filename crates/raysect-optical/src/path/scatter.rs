@@ -142,14 +142,17 @@ impl Path<'_> {
     }
 
     /// The place of a surface from which a light is looked for.
-    #[inline]
+    #[inline(always)]
     fn origin(&self, hit: &SurfaceHit, direction: Vector3D) -> Origin {
-        let mut media = self.media;
-        let mut leaving = Leaving::new(&hit.surface, hit.direction, direction, self.leaving.as_ref());
+        let leaving = Some(Leaving::new(&hit.surface, hit.direction, direction, self.leaving.as_ref()));
+        let mut origin = Origin { point: hit.surface.point, leaving, media: self.media };
         if self.scene.compiled.any_medium && hit.leads_through(direction) {
-            self.pass_into(&mut media, &hit.surface, &mut leaving);
+            self.pass_into(&mut origin.media, &hit.surface);
+            if let Some(leaving) = &mut origin.leaving {
+                self.coincident.note_passed(leaving);
+            }
         }
-        Origin { point: hit.surface.point, leaving: Some(leaving), media }
+        origin
     }
 
     /// Density [1/sr] of a direction that the surface itself chooses.
@@ -190,15 +193,17 @@ impl Path<'_> {
         let ray = Ray::new(from.point, light.direction);
         self.ledger.shadow_rays += 1;
         let found;
-        let surface = match &light.surface {
-            Some(surface) => surface,
+        let at = match &light.hit {
+            Some(hit) => hit,
             None => {
                 let crossing = scene.hit_instance(instance, &ray, leaving, f64::INFINITY, &mut self.scratch);
                 let Some(crossing) = crossing else { return };
-                found = scene.finish(&ray, &Candidate { instance, crossing });
+                let surface = scene.finish(&ray, &Candidate { instance, crossing });
+                found = SurfaceHit { surface, direction: light.direction };
                 &found
             }
         };
+        let surface = &at.surface;
         let ray = ray.with_max_distance(surface.distance);
         let mut around = from.media;
         if self.scene.compiled.any_transparent || !from.media.is_empty() {
@@ -208,7 +213,7 @@ impl Path<'_> {
             }
         } else {
             // A point drawn on a light that is not convex may lie behind another part of it.
-            let own = light.surface.is_some() && !scene.is_convex(instance);
+            let own = light.hit.is_some() && !scene.is_convex(instance);
             let short = ray.with_max_distance(surface.distance * (1.0 - 1e-9));
             if own && scene.is_blocked(&short, leaving, &mut self.scratch, |i| i == instance) {
                 return;
@@ -217,14 +222,13 @@ impl Path<'_> {
                 return;
             }
         }
-        let at = SurfaceHit { surface: *surface, direction: light.direction };
         let material = scene.instances[instance as usize].attached.material();
         // The light stands in other media than the place that it is looked for from; one that a medium hides is not met.
         let emits = if scene.compiled.any_medium {
             let index_use = scene.compiled.facts[instance as usize].index_use;
-            self.emission_in_media(material, &at, &around, index_use)
+            self.emission_in_media(material, at, &around, index_use)
         } else {
-            material.emit(&at, self.context(), &mut self.emitted)
+            material.emit(at, self.context(), &mut self.emitted)
         };
         if emits {
             let weight = heuristic(light.density, density) / light.density;
