@@ -13,10 +13,12 @@ macro_rules! direction_arithmetic {
             }
 
             /// Scalar product with a vector.
+            // From z to x: compilers then load x and y as a pair, as they store them. Pairs of y and z, which they choose
+            // otherwise, would lie across two stores and have to wait for both.
             #[inline]
             pub fn dot(self, other: impl Into<Vector3D>) -> f64 {
                 let b: Vector3D = other.into();
-                self.x * b.x + self.y * b.y + self.z * b.z
+                self.z * b.z + self.y * b.y + self.x * b.x
             }
 
             /// Vector product, right-handed.
@@ -31,9 +33,10 @@ macro_rules! direction_arithmetic {
             }
 
             /// Sum of the squared components; may overflow or vanish for components beyond 1e±154.
+            // In the order of the scalar product.
             #[inline]
             pub fn length_squared(self) -> f64 {
-                self.x * self.x + self.y * self.y + self.z * self.z
+                self.z * self.z + self.y * self.y + self.x * self.x
             }
 
             /// Euclidean length, right for every finite input: no overflow, no loss of tiny components.
