@@ -1,6 +1,8 @@
 //! Rays against worlds of shapes: this tracer and Raysect 0.9.1, the same worlds and the same rays, in turn in one run.
 //!
 //! A miss costs Raysect little more than the call; since many rays of the sets miss, those that hit are measured besides.
+//! Its `World.hit` asks one ray at a time; so does this tracer here, but for the last two ways, which give all rays to
+//! `Scene::hit_all` at once, on all processors.
 //!
 //! `cargo bench --bench shapes [-- NAME …]`; the other side runs if `RAYSECT_PYTHON` names a Python that has it (see
 //! `benches/peers/README.md`).
@@ -75,9 +77,18 @@ fn composites(world: &mut World<()>) -> raysect::Result<()> {
     Ok(())
 }
 
-/// The ways in which a world is asked: all rays of both orders, those of them that hit, and the shape alone.
-const WAYS: [&str; 6] =
-    ["coherent", "incoherent", "coherent, hits", "incoherent, hits", "coherent, alone", "incoherent, alone"];
+/// The ways in which a world is asked: all rays of both orders, those of them that hit, the shape alone, and all rays of
+/// both orders at once, to which the other side has the first two as an answer.
+const WAYS: [&str; 8] = [
+    "coherent",
+    "incoherent",
+    "coherent, hits",
+    "incoherent, hits",
+    "coherent, alone",
+    "incoherent, alone",
+    "coherent, at once",
+    "incoherent, at once",
+];
 
 /// The rays of the first four ways.
 fn sets(name: &str, world: &World<()>, count: usize) -> raysect::Result<[Vec<Ray>; 4]> {
@@ -111,6 +122,17 @@ fn alone(shape: &dyn Primitive, rays: &[Ray]) -> f64 {
         let hit = black_box(shape).hit(ray, Interval::AHEAD, &mut scratch);
         hit.map_or(0.0, |hit| shape.surface(ray, &hit).bound)
     })
+}
+
+/// The same of all rays at once, on all processors.
+fn at_once(world: &World<()>, rays: &[Ray]) -> raysect::Result<f64> {
+    let scene = world.scene()?;
+    let pass = |_| {
+        let start = Instant::now();
+        black_box(scene.hit_all(rays));
+        rays.len() as f64 / start.elapsed().as_secs_f64()
+    };
+    Ok((0..PASSES).map(pass).fold(0.0, f64::max))
 }
 
 /// Calls per second: the best of some passes, which other work on the machine disturbs least.
@@ -168,16 +190,18 @@ fn main() -> raysect::Result<()> {
         let counts = [sets[2].len(), sets[3].len()];
         let share = |set: usize| 100.0 * counts[set] as f64 / sets[set].len() as f64;
         println!("{name:<11} hit by {:.1} % and {:.1} % of the rays", share(0), share(1));
-        let mut rates: [[Vec<f64>; 6]; 2] = Default::default();
+        let mut rates: [[Vec<f64>; 8]; 2] = Default::default();
         for _ in 0..rounds {
             for (way, rays) in sets.iter().enumerate() {
                 rates[0][way].push(ours(&world, rays)?);
             }
             for way in 0..2 {
                 rates[0][4 + way].push(shape.as_ref().map_or(f64::NAN, |shape| alone(shape, &sets[way])));
+                rates[0][6 + way].push(at_once(&world, &sets[way])?);
             }
             match python.as_ref().map(|python| theirs(python, name, &sets)) {
                 Some(Ok((found, theirs))) => {
+                    let found = found.into_iter().chain([found[0], found[1]]);
                     rates[1].iter_mut().zip(found).for_each(|(rates, rate)| rates.push(rate));
                     if theirs != counts {
                         println!("{name:<11} {counts:?} rays hit here, {theirs:?} there");
@@ -191,7 +215,7 @@ fn main() -> raysect::Result<()> {
         for (way, (a, b)) in WAYS.iter().zip(mine.into_iter().zip(other)).filter(|(_, (a, _))| !a.is_nan()) {
             let ratio =
                 if b.is_nan() { String::new() } else { format!("   Raysect {b:.3e}   ratio {:.1}", a / b) };
-            println!("{name:<11} {way:<18} {a:.3e} hits/s{ratio}");
+            println!("{name:<11} {way:<19} {a:.3e} hits/s{ratio}");
         }
     }
     Ok(())

@@ -13,7 +13,9 @@ use raysect_math::{AffineMatrix3D, Point3D};
 pub use node::{Node, NodeId, NodeKind};
 use tree::Slot;
 
-use crate::{Acceleration, Candidate, CoreError, Instance, Intersection, Primitive, Ray, Scene, Scratch};
+use crate::{
+    Acceleration, Candidate, CoreError, Instance, Intersection, Primitive, Ray, Scene, Scratch, SurfacePoint,
+};
 
 /// What hangs on the shapes of a world, and what the compiled scene knows about all of it.
 ///
@@ -289,6 +291,17 @@ impl<A: Attachment> World<A> {
         let scene = self.scene()?;
         let hit: Option<Candidate> = scene.hit(ray, None, &mut Scratch::default());
         Ok(hit.map(|h| scene.intersection(ray, &h)))
+    }
+
+    /// The surfaces at the nearest hits of many rays, in the order of the rays: as [`hit`](Self::hit) for each of them, on
+    /// all processors. The node that a ray hits is that of the instance of this number in the
+    /// [`scene`](Self::scene).
+    ///
+    /// # Errors
+    /// As [`hit`](Self::hit).
+    pub fn hit_all(&self, rays: &[Ray]) -> Result<Vec<Option<SurfacePoint>>, CoreError> {
+        rays.iter().try_for_each(Ray::check)?;
+        Ok(self.scene()?.hit_all(rays))
     }
 
     /// Every crossing of every shape along a ray, in order.
