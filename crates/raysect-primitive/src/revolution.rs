@@ -8,6 +8,7 @@ use raysect_math::{AffineMatrix3D, MathError, Normal3D, Point3D, sampling};
 
 use crate::PrimitiveError;
 use crate::chord::Chord;
+use crate::select::{larger, smaller};
 
 /// Number of the curved face.
 pub(crate) const SIDE: u32 = 0;
@@ -67,10 +68,23 @@ impl Passage {
         self.ahead_of(-ray.origin.z, ray.direction.z, LOWER)
     }
 
-    /// Cuts off what lies above the plane z = `height`.
+    /// Cuts off what lies below the plane z = 0 or above the plane z = `height`.
     #[inline]
-    pub(crate) fn below(self, height: f64, ray: &Ray) -> Self {
-        self.ahead_of(ray.origin.z - height, -ray.direction.z, UPPER)
+    pub(crate) fn between_ends(mut self, height: f64, ray: &Ray) -> Self {
+        let (o, d) = (ray.origin.z, ray.direction.z);
+        if d == 0.0 {
+            self.misses |= o < 0.0 || o > height;
+            return self;
+        }
+        let (to_lower, to_upper) = (-o / d, (height - o) / d);
+        let (lower_first, upper_first) = if d > 0.0 { (LOWER, UPPER) } else { (UPPER, LOWER) };
+        let (first, last) = (smaller(to_lower, to_upper), larger(to_lower, to_upper));
+        // Selections and no branches: which way lines run cannot be foretold.
+        self.entry = if first > self.near { lower_first } else { self.entry };
+        self.near = larger(self.near, first);
+        self.exit = if last < self.far { upper_first } else { self.exit };
+        self.far = smaller(self.far, last);
+        self
     }
 
     /// Keeps the distances t for which `speed · t ≥ missing`.
@@ -103,7 +117,7 @@ impl Passage {
 
     #[inline]
     fn meets(&self) -> bool {
-        !self.misses && self.near <= self.far && self.near.is_finite() && self.far.is_finite()
+        !self.misses && self.near <= self.far && self.near >= f64::MIN && self.far <= f64::MAX
     }
 
     /// What is within the body, if the line meets it.
