@@ -188,7 +188,7 @@ impl Primitive for Torus {
     }
 
     fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
-        let p = exact::point_at(ray.origin, ray.direction, crossing.distance);
+        let p = exact::point_at(ray.origin.to_vector(), ray.direction, crossing.distance);
         let rho = (p.x * p.x + p.y * p.y).sqrt();
         // On the axis, which only a closed hole touches, any direction is as good.
         let (cosine, sine) = if rho > 0.0 { (p.x / rho, p.y / rho) } else { (1.0, 0.0) };

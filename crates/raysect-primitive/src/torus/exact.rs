@@ -1,6 +1,6 @@
 //! Points along a line, as good from afar as from near.
 
-use raysect_math::{Point3D, Vector3D};
+use raysect_math::Vector3D;
 
 /// The upper 26 bits of a number.
 #[inline(always)]
@@ -32,8 +32,8 @@ pub(super) fn point_at_short(o: Vector3D, d: Vector3D, t: f64) -> Vector3D {
 
 /// The point of a line at a distance.
 #[inline(always)]
-pub(super) fn point_at(o: Point3D, d: Vector3D, t: f64) -> Point3D {
-    Point3D::new(at_any(o.x, d.x, t), at_any(o.y, d.y, t), at_any(o.z, d.z, t))
+pub(super) fn point_at(o: Vector3D, d: Vector3D, t: f64) -> Vector3D {
+    Vector3D::new(at_any(o.x, d.x, t), at_any(o.y, d.y, t), at_any(o.z, d.z, t))
 }
 
 #[cfg(test)]

@@ -15,8 +15,8 @@ impl Quartic {
         let squared = s * s;
         let value = squared * (0.25 * squared + 0.5 * self.p) + (self.q * s + self.rest);
         let slope = s * (squared + self.p) + self.q;
-        let bend = 3.0 * squared + self.p;
-        s - value * slope / (slope * slope - 0.5 * value * bend)
+        let half_bend = 1.5 * squared + 0.5 * self.p;
+        s - value * slope / (slope * slope - value * half_bend)
     }
 
     /// True if a root at which the quartic falls is the first of all, or the last of all for one at which it rises: it

@@ -4,8 +4,12 @@ use raysect_math::{Bracket, Point3D, Vector3D};
 use crate::select::{larger, smaller};
 
 use super::cubic::roots_of_depressed_cubic;
-use super::exact::{point_at_short, upper};
+use super::exact;
 use super::quartic::Quartic;
+
+/// Square of the distance from which a ray is far, in units of the tube: nearer, the rounding of the distance to the
+/// centre is that of coordinates.
+const FAR: f64 = 256.0;
 
 /// The radii of a torus in a unit of its own, and where lines cross it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,14 +121,36 @@ impl Tube {
     /// The line of a ray.
     ///
     /// The point of closest approach is summed without rounding on the way, so that it is as good from afar as from
-    /// near: first to where 26 bits of the distance lead, then by the rest.
+    /// near.
     #[inline]
     pub(super) fn line(&self, ray: &Ray) -> Line {
         let d = ray.direction;
         let o = ray.origin.to_vector() * self.scale;
         let inverse = 1.0 / d.length_squared();
-        let closest = upper(-o.dot(d) * inverse);
-        let miss = point_at_short(o, d, closest);
+        let stretch = inverse.sqrt();
+        let direction = d * stretch;
+        let closest = -o.dot(d) * inverse;
+        if closest * closest > FAR * inverse {
+            return self.line_from_afar(o, d, closest);
+        }
+        let miss = exact::point_at(o, d, closest);
+        Line {
+            miss,
+            miss_squared: miss.length_squared(),
+            direction,
+            closest: (closest, 0.0),
+            stretch,
+            unit: self.unit,
+        }
+    }
+
+    /// The distance of the closest approach is rounded by more than its place may be: first to where 26 bits of it lead,
+    /// then by the rest.
+    #[cold]
+    fn line_from_afar(&self, o: Vector3D, d: Vector3D, closest: f64) -> Line {
+        let inverse = 1.0 / d.length_squared();
+        let closest = exact::upper(closest);
+        let miss = exact::point_at_short(o, d, closest);
         let rest = -miss.dot(d) * inverse;
         let stretch = inverse.sqrt();
         let (miss, direction) = (miss + d * rest, d * stretch);
@@ -263,6 +289,7 @@ impl Tube {
 
     /// The root in a bracket from a parabola through both ends with its vertex at the inner one, where the depth is
     /// extremal.
+    #[inline(never)]
     fn inner_root(&self, line: &Line, bracket: Bracket) -> Option<f64> {
         let Bracket { low, high, rising } = bracket;
         let (inner, outer) = if rising { (low, high) } else { (high, low) };
@@ -275,7 +302,7 @@ impl Tube {
     ///
     /// With f′ and f″ of the depth f along the line the error that a step x leaves is about x³ times (f″/2f′)² − f‴/6f′.
     /// The derivatives are at most 2 (1 + R/ρ) and 12/5 R/ρ² in size. Slope and bend are f′/2 and f″/2, times ρ and ρ³.
-    #[inline]
+    #[inline(always)]
     fn swift_root(&self, line: &Line, near: f64, bracket: Bracket) -> Option<Root> {
         const STEPS: usize = 8;
         let d = line.direction;
