@@ -228,6 +228,40 @@ fn touches_give_none_or_a_pair() {
     assert_eq!(through.iter().map(|c| c.distance).collect::<Vec<_>>(), [1.25, 1.75, 2.25, 2.75]);
 }
 
+/// How many crossings lines have that pass a touch on the one side or on the other, by a part of the tube, outside, in the
+/// hole and on top: all numbers are exact.
+fn counts_beside_touches(torus: &Torus, gap: f64) -> [[usize; 2]; 4] {
+    let (major, minor) = (2.0, 0.5);
+    let beside = |from: &dyn Fn(f64) -> [f64; 3], direction: [f64; 3]| {
+        [gap, -gap].map(|gap| {
+            let ray = Ray::new(from(gap * minor).into(), direction.into());
+            let all = crossings(torus, &ray);
+            let everywhere = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
+            assert_eq!(torus.hit(&ray, everywhere, &mut Scratch::default()), all.first().copied());
+            all.len()
+        })
+    };
+    [
+        beside(&|off| [major + minor + off, 0.0, -3.0], [0.0, 0.0, 0.5]),
+        beside(&|off| [major - minor - off, 0.0, -3.0], [0.0, 0.0, 2.0]),
+        beside(&|off| [major - minor - off, -5.0, 0.0], [0.0, 1.0, 0.0]),
+        beside(&|off| [-7.0, 0.0, minor + off], [1.0, 0.0, 0.0]),
+    ]
+}
+
+#[test]
+fn lines_that_all_but_touch_are_counted_right() {
+    let torus = Torus::new(2.0, 0.5).unwrap();
+    let expected = [[0, 2], [0, 2], [4, 2], [0, 4]];
+    for exponent in 10..46 {
+        let gap = 2f64.powi(-exponent);
+        assert_eq!(counts_beside_touches(&torus, gap), expected, "2^-{exponent}");
+        let wider = Torus::new(2.0, 0.5 * (1.0 + 4.0 * gap)).unwrap();
+        let found = counts_beside_touches(&wider, gap);
+        assert!(found.iter().zip(&expected).all(|(a, b)| a != b), "2^-{exponent}: {found:?}");
+    }
+}
+
 #[test]
 fn contains_its_tube_only() {
     let torus = Torus::new(2.0, 0.5).unwrap();
