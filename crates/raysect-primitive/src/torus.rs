@@ -10,6 +10,7 @@ use crate::{PrimitiveError, unit};
 mod cubic;
 mod exact;
 mod quartic;
+mod roots;
 mod tube;
 use tube::{Line, Span, Tube};
 
