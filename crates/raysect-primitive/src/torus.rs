@@ -106,6 +106,25 @@ impl Torus {
     fn crossing_at(distance: f64, exiting: bool) -> Crossing {
         Crossing { distance, feature: Feature::default(), exiting }
     }
+
+    /// Who goes inward leaves next, who goes outward enters next. If the line through the rounded origin is on the
+    /// wrong side there, it has still to pass the crossing that is being left; unless that has vanished: then it has
+    /// been left by less than rounding, and the answer is 0.
+    fn next_in_brackets(&self, line: &Line, span: &Span, inward: bool) -> Option<Crossing> {
+        let brackets = self.tube.brackets(line, span);
+        let unpassed = brackets.iter().filter(|b| line.distance(b.high) > 0.0);
+        let crossings = unpassed.map(|b| (b, self.crossing(line, span, b)));
+        let mut ahead = crossings.skip_while(|(_, c)| c.distance <= 0.0);
+        let first = ahead.next();
+        let is_inside = first.is_some_and(|(b, _)| b.rising);
+        if is_inside == inward {
+            first.map(|(_, c)| c)
+        } else if first.is_some_and(|(b, _)| self.tube.clings(line, &brackets, b)) {
+            ahead.next().map(|(_, c)| c)
+        } else {
+            Some(Self::crossing_at(0.0, inward))
+        }
+    }
 }
 
 impl Primitive for Torus {
@@ -161,29 +180,14 @@ impl Primitive for Torus {
         }
     }
 
-    /// Who goes inward leaves next, who goes outward enters next. If the line through the rounded origin is on the
-    /// wrong side there, it has still to pass the crossing that is being left; unless that has vanished: then it has
-    /// been left by less than rounding, and the answer is 0.
     fn hit_after(&self, ray: &Ray, left: &Departure, max_distance: f64, _: &mut Scratch) -> Option<Crossing> {
-        let here = Some(Self::crossing_at(0.0, left.inward));
         let line = self.tube.line(ray);
         let next = match self.tube.span(&line) {
-            None => here.filter(|_| left.inward),
-            Some(span) => {
-                let brackets = self.tube.brackets(&line, &span);
-                let unpassed = brackets.iter().filter(|b| line.distance(b.high) > 0.0);
-                let crossings = unpassed.map(|b| (b, self.crossing(&line, &span, b)));
-                let mut ahead = crossings.skip_while(|(_, c)| c.distance <= 0.0);
-                let first = ahead.next();
-                let is_inside = first.is_some_and(|(b, _)| b.rising);
-                if is_inside == left.inward {
-                    first.map(|(_, c)| c)
-                } else if first.is_some_and(|(b, _)| self.tube.clings(&line, &brackets, b)) {
-                    ahead.next().map(|(_, c)| c)
-                } else {
-                    here
-                }
-            }
+            None => left.inward.then(|| Self::crossing_at(0.0, true)),
+            Some(span) => match self.tube.clear_next(&line, &span, left.inward) {
+                Some(next) => next.map(|distance| Self::crossing_at(distance, true)),
+                None => self.next_in_brackets(&line, &span, left.inward),
+            },
         };
         next.filter(|c| c.distance <= max_distance)
     }

@@ -78,6 +78,29 @@ impl Tube {
         (root.is_clear && span.quartic.is_outermost(root.s, false)).then(|| line.distance(root.s))
     }
 
+    /// What a ray that begins on the surface meets next, if that can be told without the brackets: where the quartic is
+    /// convex all the way onward, and the ray is not along the surface. Who goes outward meets nothing then, and who goes
+    /// inward leaves at the distance that is given.
+    #[inline]
+    pub(super) fn clear_next(&self, line: &Line, span: &Span, inward: bool) -> Option<Option<f64>> {
+        let (start, d) = (line.start(), line.direction);
+        if !span.quartic.is_outermost(start, true) {
+            return None;
+        }
+        let p = line.at(start);
+        let rho = self.depth(p).1;
+        let slope = (rho - self.major) * (p.x * d.x + p.y * d.y) + rho * (p.z * d.z);
+        let is_clear = slope * slope >= self.around.clear * rho * (rho + self.major);
+        if !is_clear || (slope < 0.0) != inward {
+            return None;
+        }
+        if !inward {
+            return Some(None);
+        }
+        let root = self.end_root(line, span, true)?;
+        (root.s > start).then(|| Some(line.distance(root.s).max(0.0)))
+    }
+
     /// The root that two steps on the quartic and some on the depth find from an end of a span.
     #[inline]
     fn end_root(&self, line: &Line, span: &Span, rising: bool) -> Option<Root> {
