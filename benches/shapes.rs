@@ -111,16 +111,17 @@ fn ours(world: &World<()>, rays: &[Ray]) -> raysect::Result<f64> {
     let mut scratch = Scratch::default();
     Ok(rate(rays, |ray| {
         let hit = scene.hit(ray, None, &mut scratch);
-        hit.map_or(0.0, |hit| scene.finish(ray, &hit).bound)
+        hit.as_ref().map_or(0.0, |hit| scene.finish(ray, hit).bound)
     }))
 }
 
-/// The same of a shape alone, in its own space.
+/// The same of a shape alone, in its own space. The crossing is lent where it lies: a copy, which is read in larger pieces
+/// than it has been written in, would wait for memory.
 fn alone(shape: &dyn Primitive, rays: &[Ray]) -> f64 {
     let mut scratch = Scratch::default();
     rate(rays, |ray| {
         let hit = black_box(shape).hit(ray, Interval::AHEAD, &mut scratch);
-        hit.map_or(0.0, |hit| shape.surface(ray, &hit).bound)
+        hit.as_ref().map_or(0.0, |hit| shape.surface(ray, hit).bound)
     })
 }
 

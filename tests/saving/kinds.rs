@@ -125,6 +125,23 @@ fn every_shape_comes_back() {
     has_every_kind(&world, "shape");
 }
 
+/// A field that says another size than the shape has would come back as it was written.
+#[test]
+fn shapes_come_back_with_their_size() {
+    for scale in [1.0, 2.0, 3.0] {
+        let mut world = World::new();
+        for shape in shapes().into_iter().chain([Arc::new(Torus::new(scale, 0.1).unwrap()) as Arc<_>]) {
+            world.add(shape.material(NullMaterial)).unwrap();
+        }
+        let back = read(&text_of(&world)).unwrap().world;
+        let boxes = |world: &World| -> Vec<_> {
+            let scene = world.scene().unwrap();
+            scene.instances.iter().map(|i| i.primitive.bounding_box(&AffineMatrix3D::IDENTITY)).collect()
+        };
+        assert_eq!(boxes(&back), boxes(&world));
+    }
+}
+
 #[test]
 fn every_material_and_spectral_function_comes_back() {
     let mut world = World::new();

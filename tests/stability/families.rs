@@ -28,6 +28,7 @@ families! {
     enclosures: closed_meshes_lose_no_ray, leaks_are_found;
     afar: distances_from_afar_are_exact_to_rounding, wrong_distances_and_misses_are_found;
     special: exact_hits_are_finite_and_right, wrong_places_and_normals_are_found;
+    tangents: lines_that_all_but_touch_are_counted_right, wider_tori_and_misses_are_found;
     chords: chords_keep_their_digits, wrong_chords_are_found;
     transforms: stretched_and_mirrored_shapes_are_right, culled_and_tilted_shapes_are_found;
     meshes: meshes_are_tight_and_exact, holes_and_wrong_triangles_are_found;

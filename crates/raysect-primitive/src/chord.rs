@@ -13,6 +13,18 @@ pub(crate) struct Chord {
     pub(crate) exit: u32,
 }
 
+/// The features of faces. They are looked up, since a feature that is put together is written in smaller pieces than it
+/// is read in, and who reads it then waits until all of them have reached memory.
+const FACES: [Feature; 8] = {
+    let mut all = [Feature { part: 0, face: 0, uv: [0.0; 2] }; 8];
+    let mut number = 1;
+    while number < all.len() {
+        all[number].face = number as u32;
+        number += 1;
+    }
+    all
+};
+
 impl Chord {
     /// Both crossings, in order.
     #[inline]
@@ -31,6 +43,6 @@ impl Chord {
 
     #[inline]
     pub(crate) fn crossing(distance: f64, face: u32, exiting: bool) -> Crossing {
-        Crossing { distance, feature: Feature { face, ..Feature::default() }, exiting }
+        Crossing { distance, feature: FACES[face as usize % FACES.len()], exiting }
     }
 }

@@ -14,7 +14,7 @@ use crate::revolution::{
     disk_reach, face_of, flat_normal, half_arc, piece_weight, roots, rounded_box, sample_disk, tip_ball,
     turned, within_disk,
 };
-use crate::select::smaller;
+use crate::select::{larger, smaller};
 
 /// A cone about the z axis with its base at z = 0 and its apex at z = height.
 ///
@@ -122,8 +122,8 @@ impl Cone {
     /// this form follows from Lagrange's identity). Nothing in it cancels, even for lines through the apex.
     #[inline]
     fn side(&self, near: &NearTip) -> Passage {
-        let (o, d) = (near.ray.origin, near.ray.direction);
-        let (x, y, w, dw) = (o.x, o.y, near.depth, -d.z);
+        let d = near.direction;
+        let (x, y, w, dw) = (near.x, near.y, near.depth, -d.z);
         let (kw, kdw) = (self.slope * w, self.slope * dw);
         let a = d.x * d.x + d.y * d.y - kdw * kdw;
         let b = x * d.x + y * d.y - kw * kdw;
@@ -135,9 +135,9 @@ impl Cone {
             // Steeper than the side: one end of the line is inside, the lower one of this cone.
             let (p, q) = roots(a, b, c, discriminant).unwrap_or((0.0, 0.0));
             return if dw > 0.0 {
-                Passage::within_side(p.max(q), f64::INFINITY, false)
+                Passage::within_side(larger(p, q), f64::INFINITY, false)
             } else {
-                Passage::within_side(f64::NEG_INFINITY, p.min(q), false)
+                Passage::within_side(f64::NEG_INFINITY, smaller(p, q), false)
             };
         }
         let Some((p, q)) = roots(a, b, c, discriminant) else {
@@ -145,7 +145,7 @@ impl Cone {
         };
         // The middle of the chord lies below the apex, not above it in the other half of the double cone.
         let below = d.x * vx + d.y * vy > 0.0;
-        Passage::within_side(p.min(q), p.max(q), !below || discriminant < 0.0)
+        Passage::within_side(smaller(p, q), larger(p, q), !below || discriminant < 0.0)
     }
 
     /// The probability with which each face is chosen by light sampling, and half the arc of the side that is seen:

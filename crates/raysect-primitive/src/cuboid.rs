@@ -29,6 +29,9 @@ use crate::select::{larger, smaller};
 pub struct Cuboid {
     /// Of least and of greatest coordinates [m].
     corners: [Point3D; 2],
+    /// The lower, the upper and again the lower coordinate of each axis: the first two in the order in which a line
+    /// meets them that goes up, the last two for one that goes down [m].
+    planes: [[f64; 3]; 3],
     sheet: Option<usize>,
     centre: [f64; 3],
     /// Of a face across each axis [m²].
@@ -88,7 +91,8 @@ impl Cuboid {
         let centre = [0, 1, 2].map(|a| 0.5 * lower[a] + 0.5 * upper[a]);
         let areas = [extent.y * extent.z, extent.z * extent.x, extent.x * extent.y];
         let longest = faces::NEAR * extent.max_abs();
-        Self { corners: [lower, upper], sheet, centre, areas, near: longest * longest }
+        let planes = [0, 1, 2].map(|a| [lower[a], upper[a], lower[a]]);
+        Self { corners: [lower, upper], planes, sheet, centre, areas, near: longest * longest }
     }
 
     /// Of given extents along the axes, centred on the origin [m].
@@ -138,14 +142,14 @@ impl Cuboid {
 
     /// The common interval of the three slabs, possibly empty (`near > far`); none if the ray runs beside a slab.
     ///
-    /// The slabs do not wait for each other, and selections take the place of branches: which way lines run cannot be
-    /// foretold. Of faces at equal distance that of the first axis counts.
+    /// The slabs do not wait for each other, and look-ups and selections take the place of branches: which way lines run
+    /// cannot be foretold. Of faces at equal distance that of the first axis counts.
     #[inline]
     fn passage(&self, ray: &Ray) -> Option<Chord> {
-        let (o, d, low, high) = (ray.origin, ray.direction, self.lower(), self.upper());
-        let (near_x, far_x) = Self::within_slab(o.x, d.x, low.x, high.x)?;
-        let (near_y, far_y) = Self::within_slab(o.y, d.y, low.y, high.y)?;
-        let (near_z, far_z) = Self::within_slab(o.z, d.z, low.z, high.z)?;
+        let (o, d) = (ray.origin, ray.direction);
+        let (near_x, far_x) = Self::within_slab(o.x, d.x, &self.planes[0])?;
+        let (near_y, far_y) = Self::within_slab(o.y, d.y, &self.planes[1])?;
+        let (near_z, far_z) = Self::within_slab(o.z, d.z, &self.planes[2])?;
         let (near_xy, far_xy) = (larger(near_x, near_y), smaller(far_x, far_y));
         let axis = |y: bool, z: bool| (2 * u32::from(z)).max(u32::from(y));
         let (came, goes) = (axis(near_y > near_x, near_z > near_xy), axis(far_y < far_x, far_z < far_xy));
@@ -158,14 +162,14 @@ impl Cuboid {
         })
     }
 
-    /// Where a line is between the coordinates `low` and `high` of an axis.
+    /// Where a line is between two coordinates of an axis.
     #[inline(always)]
-    fn within_slab(o: f64, d: f64, low: f64, high: f64) -> Option<(f64, f64)> {
+    fn within_slab(o: f64, d: f64, planes: &[f64; 3]) -> Option<(f64, f64)> {
         if d == 0.0 {
-            return (o >= low && o <= high).then_some((f64::NEG_INFINITY, f64::INFINITY));
+            return (o >= planes[0] && o <= planes[1]).then_some((f64::NEG_INFINITY, f64::INFINITY));
         }
-        let (to_low, to_high) = ((low - o) / d, (high - o) / d);
-        Some((smaller(to_low, to_high), larger(to_low, to_high)))
+        let first = usize::from(d < 0.0);
+        Some(((planes[first] - o) / d, (planes[first + 1] - o) / d))
     }
 
     /// A sheet is crossed once, and always by the face that looks at the ray.

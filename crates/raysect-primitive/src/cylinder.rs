@@ -13,7 +13,8 @@ use crate::revolution::{
     LOWER, Passage, SIDE, UPPER, ball_about_axis, chances, check_length, choose, disk_area, disk_reach,
     face_of, half_arc, piece_weight, rounded_box, sample_disk, turned,
 };
-use crate::select::smaller;
+use crate::select::{larger, smaller};
+use crate::unit;
 
 /// A cylinder about the z axis with flat ends at z = 0 and z = height.
 ///
@@ -34,12 +35,39 @@ use crate::select::smaller;
 pub struct Cylinder {
     radius: f64,
     height: f64,
+    /// One over the radius [1/m].
+    inverse: f64,
+    /// Heights of both ends [m].
+    ends: [f64; 2],
 }
+
+/// What the faces differ in. It is looked up: which face is met cannot be foretold.
+#[derive(Clone, Copy)]
+struct Face {
+    /// The ends between which it lies.
+    lower: usize,
+    upper: usize,
+    /// 1 if its normal is across the axis, 0 if it is along it.
+    across: f64,
+    /// The component of its normal along the axis.
+    up: f64,
+    /// The least square of a distance from the axis, in radii, at which a point is on the face but for rounding.
+    least: f64,
+    /// The most by which a point is moved away from the axis.
+    most: f64,
+}
+
+const FACES: [Face; 4] = {
+    let side =
+        Face { lower: 0, upper: 1, across: 1.0, up: 0.0, least: 1.0 - unit::NEAR, most: f64::INFINITY };
+    let end = Face { lower: 0, upper: 0, across: 0.0, up: -1.0, least: 0.0, most: 1.0 };
+    [side, end, Face { lower: 1, upper: 1, up: 1.0, ..end }, side]
+};
 
 impl Default for Cylinder {
     /// Radius 0.5 m, height 1 m.
     fn default() -> Self {
-        Self { radius: 0.5, height: 1.0 }
+        Self::of(0.5, 1.0)
     }
 }
 
@@ -56,7 +84,11 @@ impl Cylinder {
     pub fn new(radius: f64, height: f64) -> Result<Self, PrimitiveError> {
         check_length("cylinder", "radius", radius)?;
         check_length("cylinder", "height", height)?;
-        Ok(Self { radius, height })
+        Ok(Self::of(radius, height))
+    }
+
+    fn of(radius: f64, height: f64) -> Self {
+        Self { radius, height, inverse: 1.0 / radius, ends: [0.0, height] }
     }
 
     /// The radius [m].
@@ -99,14 +131,32 @@ impl Cylinder {
 
     #[inline]
     fn between_ends(&self, side: Passage, ray: &Ray) -> Passage {
-        side.above_base(ray).below(self.height, ray)
+        side.between_ends(self.height, ray)
     }
 
     /// Within the endless cylinder: a chord of a circle in the projection along the axis, symmetrical about the place
-    /// of closest approach. Half its length comes from the distance of that place, without cancellation (E. Haines,
-    /// J. Günther, T. Akenine-Möller, *Precision Improvements for Ray/Sphere Intersection*, Ray Tracing Gems, ch. 7).
+    /// of closest approach. Half its length comes from the moment about the axis, whose error does not grow with the
+    /// distance along the line (E. Haines, J. Günther, T. Akenine-Möller, *Precision Improvements for Ray/Sphere
+    /// Intersection*, Ray Tracing Gems, ch. 7).
     #[inline]
     fn side(&self, ray: &Ray) -> Passage {
+        let (o, d) = (ray.origin, ray.direction);
+        let squared = d.x * d.x + d.y * d.y;
+        // With radii of 1e-100 … 1e100 m no product below can leave the range of numbers.
+        if !(1e-80..=1e80).contains(&squared) {
+            return self.scaled_side(ray);
+        }
+        let inverse = 1.0 / squared;
+        let along = o.x * d.x + o.y * d.y;
+        let moment = o.x * d.y - o.y * d.x;
+        let discriminant = self.radius * self.radius * squared - moment * moment;
+        let half = discriminant.max(0.0).sqrt();
+        Passage::within_side((-along - half) * inverse, (half - along) * inverse, discriminant < 0.0)
+    }
+
+    /// For directions that are very short or very long across the axis.
+    #[cold]
+    fn scaled_side(&self, ray: &Ray) -> Passage {
         let (o, d) = (ray.origin, ray.direction);
         let longer = d.x.abs().max(d.y.abs());
         if longer < SHORT {
@@ -116,7 +166,6 @@ impl Cylinder {
     }
 
     /// For lines that are all but parallel to the axis.
-    #[cold]
     fn steep_side(&self, ray: &Ray, longer: f64) -> Passage {
         let (o, d) = (ray.origin, ray.direction);
         if longer == 0.0 {
@@ -126,7 +175,7 @@ impl Cylinder {
         self.across(o, d.x * STRETCH, d.y * STRETCH, STRETCH)
     }
 
-    #[inline]
+    /// The direction across the axis is made a unit vector first.
     fn across(&self, o: Point3D, dx: f64, dy: f64, stretch: f64) -> Passage {
         let inverse = 1.0 / (dx * dx + dy * dy).sqrt();
         let (dx, dy) = (dx * inverse, dy * inverse);
@@ -137,6 +186,13 @@ impl Cylinder {
         // One factor after the other: their product may overflow where the result does not.
         let distance = |across: f64| across * inverse * stretch;
         Passage::within_side(distance(-along - half), distance(half - along), squared < 0.0)
+    }
+
+    /// A point of any distance from the axis, moved onto the side.
+    #[cold]
+    fn onto_side(&self, x: f64, y: f64) -> (f64, f64) {
+        let rho = (x * x + y * y).sqrt();
+        if rho > 0.0 { (x / rho * self.radius, y / rho * self.radius) } else { (self.radius, 0.0) }
     }
 
     /// The probability with which each face is chosen by light sampling, and half the arc of the side that is seen.
@@ -195,22 +251,26 @@ impl Primitive for Cylinder {
     #[inline]
     fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
         let p = ray.point_at(crossing.distance);
-        let (face, radius) = (crossing.feature.face, self.radius);
-        let rho = (p.x * p.x + p.y * p.y).sqrt();
-        let (nx, ny) = if rho > 0.0 { (p.x / rho, p.y / rho) } else { (1.0, 0.0) };
-        // Selections and no branches: which face is met cannot be foretold.
-        let side = face == SIDE;
-        let (x, y) = if side || rho > radius { (nx * radius, ny * radius) } else { (p.x, p.y) };
-        let below_top = if p.z > self.height { self.height } else { p.z };
-        let along_side = if p.z < 0.0 { 0.0 } else { below_top };
-        let (end, outward) = if face == UPPER { (self.height, 1.0) } else { (0.0, -1.0) };
-        let (nx, ny, nz) = if side { (nx, ny, 0.0) } else { (0.0, 0.0, outward) };
-        let normal = Normal3D::new(nx, ny, nz);
+        let face = crossing.feature.face as usize % FACES.len();
+        let Face { lower, upper, across, up, least, most } = FACES[face];
+        let (mut x, mut y) = (p.x, p.y);
+        let (mut nx, mut ny) = (x * self.inverse, y * self.inverse);
+        let mut squared = nx * nx + ny * ny;
+        if squared < least || squared > 1.0 + unit::NEAR {
+            (x, y) = self.onto_side(x, y);
+            (nx, ny, squared) = (x * self.inverse, y * self.inverse, 1.0);
+        }
+        // Onto the side, or onto an end if it lies beside.
+        let stretch = smaller(unit::stretch(squared), most);
+        let (low, high) = (self.ends[lower], self.ends[upper]);
+        let part = stretch * across;
+        // The sum has no negative zero.
+        let normal = Normal3D::new(nx * part + 0.0, ny * part + 0.0, up);
         Surface {
-            point: Point3D::new(x, y, if side { along_side } else { end }),
+            point: Point3D::new(x * stretch, y * stretch, smaller(larger(low, p.z), high)),
             normal,
             shading_normal: normal,
-            bound: if side { 4.0 * f64::EPSILON * radius } else { 0.0 },
+            bound: 4.0 * f64::EPSILON * self.radius * across,
         }
     }
 

@@ -35,6 +35,7 @@ mod revolution;
 mod select;
 mod sphere;
 mod torus;
+mod unit;
 
 #[cfg(test)]
 mod double_double;

@@ -14,6 +14,7 @@ use crate::revolution::{
     disk_reach, face_of, flat_normal, half_arc, piece_weight, roots, rounded_box, sample_disk, tip_ball,
     turned, within_disk,
 };
+use crate::select::{larger, smaller};
 
 /// A solid paraboloid of revolution about the z axis with its base at z = 0 and its vertex at z = height:
 /// 0 ≤ z ≤ h (1 − ρ²/r²).
@@ -134,8 +135,8 @@ impl Parabola {
     /// the origin.
     #[inline]
     fn side(&self, near: &NearTip) -> Passage {
-        let (o, d) = (near.ray.origin, near.ray.direction);
-        let (x, y, w, dw) = (o.x, o.y, near.depth, -d.z);
+        let d = near.direction;
+        let (x, y, w, dw) = (near.x, near.y, near.depth, -d.z);
         let fall = 0.5 * self.latus * dw;
         let a = d.x * d.x + d.y * d.y;
         let b = x * d.x + y * d.y - fall;
@@ -144,7 +145,7 @@ impl Parabola {
         let (vx, vy) = (w * d.x - dw * x, w * d.y - dw * y);
         let discriminant = fall * fall + self.latus * (d.x * vx + d.y * vy) - m * m;
         match roots(a, b, c, discriminant) {
-            Some((p, q)) => Passage::within_side(p.min(q), p.max(q), discriminant < 0.0),
+            Some((p, q)) => Passage::within_side(smaller(p, q), larger(p, q), discriminant < 0.0),
             None => Passage::within_side(0.0, 0.0, true),
         }
     }

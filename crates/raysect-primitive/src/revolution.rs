@@ -4,10 +4,11 @@
 use std::f64::consts::PI;
 
 use raysect_core::{BoundingBox3D, BoundingSphere3D, Crossing, Feature, Interval, Ray, SurfaceSample};
-use raysect_math::{AffineMatrix3D, MathError, Normal3D, Point3D, sampling};
+use raysect_math::{AffineMatrix3D, MathError, Normal3D, Point3D, Vector3D, sampling};
 
 use crate::PrimitiveError;
 use crate::chord::Chord;
+use crate::select::{larger, smaller};
 
 /// Number of the curved face.
 pub(crate) const SIDE: u32 = 0;
@@ -61,16 +62,23 @@ impl Passage {
         (!self.misses).then_some(self)
     }
 
-    /// Cuts off what lies below the plane z = 0.
+    /// Cuts off what lies below the plane z = 0 or above the plane z = `height`.
     #[inline]
-    pub(crate) fn above_base(self, ray: &Ray) -> Self {
-        self.ahead_of(-ray.origin.z, ray.direction.z, LOWER)
-    }
-
-    /// Cuts off what lies above the plane z = `height`.
-    #[inline]
-    pub(crate) fn below(self, height: f64, ray: &Ray) -> Self {
-        self.ahead_of(ray.origin.z - height, -ray.direction.z, UPPER)
+    pub(crate) fn between_ends(mut self, height: f64, ray: &Ray) -> Self {
+        let (o, d) = (ray.origin.z, ray.direction.z);
+        if d == 0.0 {
+            self.misses |= o < 0.0 || o > height;
+            return self;
+        }
+        let (to_lower, to_upper) = (-o / d, (height - o) / d);
+        let (lower_first, upper_first) = if d > 0.0 { (LOWER, UPPER) } else { (UPPER, LOWER) };
+        let (first, last) = (smaller(to_lower, to_upper), larger(to_lower, to_upper));
+        // Selections and no branches: which way lines run cannot be foretold.
+        self.entry = if first > self.near { lower_first } else { self.entry };
+        self.near = larger(self.near, first);
+        self.exit = if last < self.far { upper_first } else { self.exit };
+        self.far = smaller(self.far, last);
+        self
     }
 
     /// Keeps the distances t for which `speed · t ≥ missing`.
@@ -103,7 +111,7 @@ impl Passage {
 
     #[inline]
     fn meets(&self) -> bool {
-        !self.misses && self.near <= self.far && self.near.is_finite() && self.far.is_finite()
+        !self.misses && self.near <= self.far && self.near >= f64::MIN && self.far <= f64::MAX
     }
 
     /// What is within the body, if the line meets it.
@@ -151,18 +159,22 @@ pub(crate) fn roots(a: f64, b: f64, c: f64, discriminant: f64) -> Option<(f64, f
     if discriminant < 0.0 {
         return Some((-b / a, -b / a));
     }
-    let root = discriminant.sqrt();
-    let q = if b > 0.0 { -(b + root) } else { root - b };
+    let q = -(b + discriminant.sqrt().copysign(b));
     (q != 0.0).then(|| (q / a, c / q))
 }
 
 /// A line begun where a quadric with its tip on the z axis is best solved.
 pub(crate) struct NearTip {
-    pub(crate) ray: Ray,
-    /// Depth of the origin below the tip [m].
+    /// Where it begins across the axis [m].
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    /// Height of that place above the plane z = 0 [m].
+    height: f64,
+    /// Depth below the tip [m].
     pub(crate) depth: f64,
+    pub(crate) direction: Vector3D,
     /// The distance by which the origin has been moved along the line.
-    pub(crate) moved: f64,
+    moved: f64,
 }
 
 impl NearTip {
@@ -179,16 +191,16 @@ impl NearTip {
         let (x, y, w) = (o.x + t * d.x, o.y + t * d.y, depth - t * d.z);
         if 16.0 * (x * x + y * y + w * w) < o.x * o.x + o.y * o.y + depth * depth {
             // Height and depth fit together, or else the base would be moved against the side.
-            Self { ray: Ray::new(Point3D::new(x, y, tip - w), d), depth: w, moved: t }
+            Self { x, y, height: tip - w, depth: w, direction: d, moved: t }
         } else {
-            Self { ray: *ray, depth, moved: 0.0 }
+            Self { x: o.x, y: o.y, height: o.z, depth, direction: d, moved: 0.0 }
         }
     }
 
     /// What of a passage through the side lies above the plane z = 0, counted from the origin as it was given.
     #[inline]
     pub(crate) fn above_base(&self, side: Passage) -> Passage {
-        side.above_base(&self.ray).counted_from(self.moved)
+        side.ahead_of(-self.height, self.direction.z, LOWER).counted_from(self.moved)
     }
 }
 

@@ -3,13 +3,16 @@ use raysect_core::{
     BoundingBox3D, BoundingSphere3D, Crossing, Departure, Feature, Interval, Primitive, Ray, Scratch,
     Surface, SurfaceSample, SurfaceSampling,
 };
-use raysect_math::error_free::add_product;
 use raysect_math::{AffineMatrix3D, Bracket, MathError, Normal3D, Point3D, Vector3D};
 
-use crate::PrimitiveError;
+use crate::{PrimitiveError, unit};
 
+mod cubic;
+mod exact;
+mod quartic;
+mod roots;
 mod tube;
-use tube::{Line, Tube};
+use tube::{Line, Span, Tube};
 
 /// A ring: a tube about a circle in the plane z = 0.
 ///
@@ -26,13 +29,15 @@ use tube::{Line, Tube};
 pub struct Torus {
     major_radius: f64,
     minor_radius: f64,
+    /// One over the radius of the tube [1/m].
+    inverse: f64,
     tube: Tube,
 }
 
 impl Default for Torus {
     /// Major radius 1 m, minor radius 0.5 m.
     fn default() -> Self {
-        Self { major_radius: 1.0, minor_radius: 0.5, tube: Tube::new(1.0, 0.5) }
+        Self::of(1.0, 0.5)
     }
 }
 
@@ -49,7 +54,12 @@ impl Torus {
         let admitted = minor_radius >= 1e-9 * major_radius && minor_radius <= major_radius;
         MathError::check(admitted, minor_radius, "minor_radius", "m", "1e-9 … 1 times major_radius")
             .map_err(refuse)?;
-        Ok(Self { major_radius, minor_radius, tube: Tube::new(major_radius, minor_radius) })
+        Ok(Self::of(major_radius, minor_radius))
+    }
+
+    fn of(major_radius: f64, minor_radius: f64) -> Self {
+        let tube = Tube::new(major_radius, minor_radius);
+        Self { major_radius, minor_radius, inverse: 1.0 / minor_radius, tube }
     }
 
     /// The radius of the circle in the middle of the tube [m].
@@ -74,19 +84,52 @@ impl Torus {
     }
 
     #[inline]
-    fn crossing(&self, line: &Line, bracket: Bracket) -> Crossing {
-        Self::crossing_at(self.tube.crossing(line, bracket), bracket.rising)
+    fn crossing(&self, line: &Line, span: &Span, bracket: Bracket) -> Crossing {
+        Self::crossing_at(self.tube.crossing(line, span, bracket), bracket.rising)
+    }
+
+    /// The first crossing in an interval, of all.
+    fn hit_in_brackets(&self, line: &Line, span: &Span, within: Interval) -> Option<Crossing> {
+        let brackets = self.tube.brackets(line, span);
+        // A bracket that ends before the interval begins, or begins after it ends, need not be searched.
+        let mut ahead = brackets
+            .iter()
+            .filter(|b| line.distance(b.high) >= within.min && line.distance(b.low) <= within.max);
+        let first = ahead.find_map(|b| {
+            let c = self.crossing(line, span, b);
+            (c.distance >= within.min).then_some(c)
+        });
+        first.filter(|c| c.distance <= within.max)
     }
 
     #[inline]
     fn crossing_at(distance: f64, exiting: bool) -> Crossing {
         Crossing { distance, feature: Feature::default(), exiting }
     }
+
+    /// Who goes inward leaves next, who goes outward enters next. If the line through the rounded origin is on the
+    /// wrong side there, it has still to pass the crossing that is being left; unless that has vanished: then it has
+    /// been left by less than rounding, and the answer is 0.
+    fn next_in_brackets(&self, line: &Line, span: &Span, inward: bool) -> Option<Crossing> {
+        let brackets = self.tube.brackets(line, span);
+        let unpassed = brackets.iter().filter(|b| line.distance(b.high) > 0.0);
+        let crossings = unpassed.map(|b| (b, self.crossing(line, span, b)));
+        let mut ahead = crossings.skip_while(|(_, c)| c.distance <= 0.0);
+        let first = ahead.next();
+        let is_inside = first.is_some_and(|(b, _)| b.rising);
+        if is_inside == inward {
+            first.map(|(_, c)| c)
+        } else if first.is_some_and(|(b, _)| self.tube.clings(line, &brackets, b)) {
+            ahead.next().map(|(_, c)| c)
+        } else {
+            Some(Self::crossing_at(0.0, inward))
+        }
+    }
 }
 
 impl Primitive for Torus {
     fn save(&self, _: &mut SceneWriter) -> Result<Saved, SaveError> {
-        Ok(Saved::new("Torus").number("major", self.tube.major).number("minor", self.tube.minor))
+        Ok(Saved::new("Torus").number("major", self.major_radius).number("minor", self.minor_radius))
     }
 
     fn bounding_box(&self, m: &AffineMatrix3D) -> BoundingBox3D {
@@ -115,72 +158,57 @@ impl Primitive for Torus {
     }
 
     fn contains(&self, point: Point3D) -> bool {
-        self.tube.depth(point.to_vector() * (1.0 / self.tube.unit)).0 <= 0.0
+        self.tube.depth(point.to_vector() * self.tube.scale).0 <= 0.0
     }
 
     fn crossings(&self, ray: &Ray, _: &mut Scratch, out: &mut Vec<Crossing>) {
-        if let Some(line) = self.tube.line(ray) {
-            out.extend(self.tube.brackets(&line).iter().map(|b| self.crossing(&line, b)));
+        let line = self.tube.line(ray);
+        if let Some(span) = self.tube.span(&line) {
+            let brackets = self.tube.brackets(&line, &span);
+            out.extend(brackets.iter().map(|b| self.crossing(&line, &span, b)));
         }
     }
 
     fn hit(&self, ray: &Ray, within: Interval, _: &mut Scratch) -> Option<Crossing> {
-        let line = self.tube.line(ray)?;
-        let brackets = self.tube.brackets(&line);
-        // A bracket that ends before the interval begins, or begins after it ends, need not be searched.
-        let mut ahead = brackets
-            .iter()
-            .filter(|b| line.distance(b.high) >= within.min && line.distance(b.low) <= within.max);
-        let first = ahead.find_map(|b| {
-            let c = self.crossing(&line, b);
-            (c.distance >= within.min).then_some(c)
-        });
-        first.filter(|c| c.distance <= within.max)
+        let line = self.tube.line(ray);
+        let span = self.tube.span(&line)?;
+        match self.tube.clear_entry(&line, &span) {
+            Some(distance) if distance >= within.min => {
+                (distance <= within.max).then(|| Self::crossing_at(distance, false))
+            }
+            _ => self.hit_in_brackets(&line, &span, within),
+        }
     }
 
-    /// Who goes inward leaves next, who goes outward enters next. If the line through the rounded origin is on the
-    /// wrong side there, it has still to pass the crossing that is being left; unless that has vanished: then it has
-    /// been left by less than rounding, and the answer is 0.
     fn hit_after(&self, ray: &Ray, left: &Departure, max_distance: f64, _: &mut Scratch) -> Option<Crossing> {
-        let here = Some(Self::crossing_at(0.0, left.inward));
-        let next = match self.tube.line(ray) {
-            None => here.filter(|_| left.inward),
-            Some(line) => {
-                let brackets = self.tube.brackets(&line);
-                let unpassed = brackets.iter().filter(|b| line.distance(b.high) > 0.0);
-                let crossings = unpassed.map(|b| (b, self.crossing(&line, b)));
-                let mut ahead = crossings.skip_while(|(_, c)| c.distance <= 0.0);
-                let first = ahead.next();
-                let is_inside = first.is_some_and(|(b, _)| b.rising);
-                if is_inside == left.inward {
-                    first.map(|(_, c)| c)
-                } else if first.is_some_and(|(b, _)| self.tube.clings(&line, &brackets, b)) {
-                    ahead.next().map(|(_, c)| c)
-                } else {
-                    here
-                }
-            }
+        let line = self.tube.line(ray);
+        let next = match self.tube.span(&line) {
+            None => left.inward.then(|| Self::crossing_at(0.0, true)),
+            Some(span) => match self.tube.clear_next(&line, &span, left.inward) {
+                Some(next) => next.map(|distance| Self::crossing_at(distance, true)),
+                None => self.next_in_brackets(&line, &span, left.inward),
+            },
         };
         next.filter(|c| c.distance <= max_distance)
     }
 
     fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
-        let (o, d, t) = (ray.origin, ray.direction, crossing.distance);
-        let p = [add_product(o.x, d.x, t), add_product(o.y, d.y, t), add_product(o.z, d.z, t)];
-        let [x, y, z] = p.map(|c| c / self.tube.unit);
-        let rho = (x * x + y * y).sqrt();
+        let p = exact::point_at(ray.origin.to_vector(), ray.direction, crossing.distance);
+        let rho = (p.x * p.x + p.y * p.y).sqrt();
         // On the axis, which only a closed hole touches, any direction is as good.
-        let (cosine, sine) = if rho > 0.0 { (x / rho, y / rho) } else { (1.0, 0.0) };
-        let across = rho - self.tube.major;
-        let length = (across * across + z * z).sqrt();
-        let (out, up) = if length > 0.0 { (across / length, z / length) } else { (0.0, 1.0) };
-        let circle = self.major_radius + self.minor_radius * out;
-        let normal = Normal3D::new(out * cosine, out * sine, up).normalise_unchecked();
+        let (cosine, sine) = if rho > 0.0 { (p.x / rho, p.y / rho) } else { (1.0, 0.0) };
+        let (out, up) = ((rho - self.major_radius) * self.inverse, p.z * self.inverse);
+        let rough = Normal3D::new(out * cosine, out * sine, up);
+        let stretch = unit::to_unit(rough.length_squared());
+        let normal = rough * stretch;
+        let (major, minor) = (self.major_radius, self.minor_radius);
+        // Not a sum of two vectors, which would lose the azimuth in a closed hole.
+        let circle = major + minor * (out * stretch);
         Surface {
-            point: Point3D::new(circle * cosine, circle * sine, self.minor_radius * up),
+            point: Point3D::new(circle * cosine, circle * sine, minor * normal.z),
             normal,
             shading_normal: normal,
-            bound: 4.0 * f64::EPSILON * (self.major_radius + self.minor_radius),
+            bound: 4.0 * f64::EPSILON * (major + minor),
         }
     }
 

@@ -16,6 +16,7 @@ mod metamorphic;
 mod restarts;
 mod scenes;
 mod special;
+mod tangents;
 mod transforms;
 mod wrong;
 
@@ -47,6 +48,7 @@ families!(
     enclosures,
     afar,
     special,
+    tangents,
     chords,
     transforms,
     meshes,

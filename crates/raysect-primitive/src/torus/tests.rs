@@ -228,6 +228,63 @@ fn touches_give_none_or_a_pair() {
     assert_eq!(through.iter().map(|c| c.distance).collect::<Vec<_>>(), [1.25, 1.75, 2.25, 2.75]);
 }
 
+/// What is told without brackets of rays that leave the surface is what the brackets say.
+#[test]
+fn clear_ways_onward_are_those_of_the_brackets() {
+    let mut rng = Rng::new(21);
+    for minor in [1e-6, 0.1, 0.6, 1.0] {
+        let torus = Torus::new(1.5, 1.5 * minor).unwrap();
+        let mut clear = [0; 2];
+        for _ in 0..20_000 {
+            let from = point(&torus, rng.range(0.0, 6.3), rng.range(0.0, 6.3));
+            let direction = SphereSampler.sample_at([rng.uniform(), rng.uniform()]);
+            let inward = torus.tube.gradient(from).dot(direction) < 0.0;
+            let line = torus.tube.line(&Ray::new(from, direction));
+            let Some(span) = torus.tube.span(&line) else { continue };
+            let Some(told) = torus.tube.clear_next(&line, &span, inward) else { continue };
+            clear[usize::from(inward)] += 1;
+            let found = torus.next_in_brackets(&line, &span, inward);
+            assert!(found.is_none_or(|c| c.exiting), "{minor}: {found:?}");
+            assert_eq!(found.map(|c| c.distance), told, "{minor}: {from:?} {direction:?}");
+        }
+        assert!(clear.iter().all(|&count| count > 4000), "{minor}: {clear:?}");
+    }
+}
+
+/// How many crossings lines have that pass a touch on the one side or on the other, by a part of the tube, outside, in the
+/// hole and on top: all numbers are exact.
+fn counts_beside_touches(torus: &Torus, gap: f64) -> [[usize; 2]; 4] {
+    let (major, minor) = (2.0, 0.5);
+    let beside = |from: &dyn Fn(f64) -> [f64; 3], direction: [f64; 3]| {
+        [gap, -gap].map(|gap| {
+            let ray = Ray::new(from(gap * minor).into(), direction.into());
+            let all = crossings(torus, &ray);
+            let everywhere = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
+            assert_eq!(torus.hit(&ray, everywhere, &mut Scratch::default()), all.first().copied());
+            all.len()
+        })
+    };
+    [
+        beside(&|off| [major + minor + off, 0.0, -3.0], [0.0, 0.0, 0.5]),
+        beside(&|off| [major - minor - off, 0.0, -3.0], [0.0, 0.0, 2.0]),
+        beside(&|off| [major - minor - off, -5.0, 0.0], [0.0, 1.0, 0.0]),
+        beside(&|off| [-7.0, 0.0, minor + off], [1.0, 0.0, 0.0]),
+    ]
+}
+
+#[test]
+fn lines_that_all_but_touch_are_counted_right() {
+    let torus = Torus::new(2.0, 0.5).unwrap();
+    let expected = [[0, 2], [0, 2], [4, 2], [0, 4]];
+    for exponent in 10..46 {
+        let gap = 2f64.powi(-exponent);
+        assert_eq!(counts_beside_touches(&torus, gap), expected, "2^-{exponent}");
+        let wider = Torus::new(2.0, 0.5 * (1.0 + 4.0 * gap)).unwrap();
+        let found = counts_beside_touches(&wider, gap);
+        assert!(found.iter().zip(&expected).all(|(a, b)| a != b), "2^-{exponent}: {found:?}");
+    }
+}
+
 #[test]
 fn contains_its_tube_only() {
     let torus = Torus::new(2.0, 0.5).unwrap();
