@@ -76,22 +76,42 @@ impl<S: Simd> PreparedRay<S> {
     }
 }
 
+/// So many groups are tested before any of their boxes is visited: while one is, no vector can stay in a register.
+const AT_ONCE: usize = 4;
+
 #[inline(always)]
 fn walk<S: Simd>(simd: S, groups: &[Group], ray: &TraversalRay, mut limit: f64, visitor: &mut Visitor<'_>) {
-    let prepared = PreparedRay::new(simd, ray);
-    for (number, group) in groups.iter().enumerate() {
-        let (first, mut met) = group.enter(simd, &prepared, limit);
+    for (number, groups) in groups.chunks(AT_ONCE).enumerate() {
+        let (entries, mut met) = meet(simd, groups, ray, limit);
         while met != 0 {
             let lane = met.trailing_zeros() as usize;
             met &= met - 1;
-            if first[lane] <= limit {
-                limit = visitor((number * LANES + lane) as u32, limit);
+            if entries[lane / LANES % AT_ONCE][lane % LANES] <= limit {
+                limit = visitor((number * AT_ONCE * LANES + lane) as u32, limit);
                 if limit < ray.min {
                     return;
                 }
             }
         }
     }
+}
+
+/// Where the ray enters the boxes of a few groups, and one bit for each box that it meets up to `limit`.
+#[inline(always)]
+fn meet<S: Simd>(
+    simd: S,
+    groups: &[Group],
+    ray: &TraversalRay,
+    limit: f64,
+) -> ([[f64; LANES]; AT_ONCE], u64) {
+    let prepared = PreparedRay::new(simd, ray);
+    let (mut entries, mut met) = ([[0.0; LANES]; AT_ONCE], 0);
+    for (place, group) in groups.iter().take(AT_ONCE).enumerate() {
+        let (first, bits) = group.enter(simd, &prepared, limit);
+        entries[place] = first;
+        met |= bits << (place * LANES);
+    }
+    (entries, met)
 }
 
 impl List {

@@ -12,7 +12,7 @@ pub use leaving::Leaving;
 pub use surface_point::{Candidate, SurfacePoint};
 
 use crate::accel::{Accelerator, TraversalRay};
-use crate::{Attachment, Crossing, Intersection, Interval, Ray, Scratch, SurfaceSample};
+use crate::{Attachment, Crossing, Feature, Intersection, Interval, Ray, Scratch, SurfaceSample};
 
 /// A compiled world: flat, immutable, shared by all threads.
 pub struct Scene<A: Attachment> {
@@ -53,21 +53,26 @@ impl<A: Attachment> Scene<A> {
     /// The nearest hit of a ray up to its `max_distance`. Among equals the lower instance number wins, so that the
     /// answer does not depend on the acceleration.
     pub fn hit(&self, ray: &Ray, leaving: Option<&Leaving>, scratch: &mut Scratch) -> Option<Candidate> {
-        if self.few {
-            return self.hit_few(ray, leaving, scratch);
-        }
+        if self.few { self.hit_few(ray, leaving, scratch) } else { self.hit_many(ray, leaving, scratch) }
+    }
+
+    // Crossings are taken apart and put together again: one that is copied as a whole is read in larger pieces than it has
+    // just been written in, and the copy waits until all of these have reached memory.
+    #[inline(always)]
+    fn hit_many(&self, ray: &Ray, leaving: Option<&Leaving>, scratch: &mut Scratch) -> Option<Candidate> {
         let mut best: Option<Candidate> = None;
         let prepared = TraversalRay::new(ray, leaving.map_or(0.0, |l| -l.zone));
         self.accelerator.visit(&prepared, ray.max_distance, &mut |index, limit| {
-            let Some(crossing) = self.hit_instance(index, ray, leaving, limit, scratch) else { return limit };
+            let Some(c) = self.hit_instance(index, ray, leaving, limit, scratch) else { return limit };
             let nearer = best.is_none_or(|b| {
-                crossing.distance < b.crossing.distance
-                    || (crossing.distance == b.crossing.distance && index < b.instance)
+                c.distance < b.crossing.distance || (c.distance == b.crossing.distance && index < b.instance)
             });
             if nearer {
+                let feature = Feature { part: c.feature.part, face: c.feature.face, uv: c.feature.uv };
+                let crossing = Crossing { distance: c.distance, feature, exiting: c.exiting };
                 best = Some(Candidate { instance: index, crossing });
             }
-            crossing.distance.min(limit)
+            c.distance.min(limit)
         });
         best
     }
@@ -75,16 +80,20 @@ impl<A: Attachment> Scene<A> {
     #[inline]
     fn hit_few(&self, ray: &Ray, leaving: Option<&Leaving>, scratch: &mut Scratch) -> Option<Candidate> {
         if let [_] = self.instances[..] {
-            let crossing = self.hit_instance(0, ray, leaving, ray.max_distance, scratch)?;
+            let c = self.hit_instance(0, ray, leaving, ray.max_distance, scratch)?;
+            let feature = Feature { part: c.feature.part, face: c.feature.face, uv: c.feature.uv };
+            let crossing = Crossing { distance: c.distance, feature, exiting: c.exiting };
             return Some(Candidate { instance: 0, crossing });
         }
         let (mut best, mut limit) = (None, ray.max_distance);
         for index in 0..self.instances.len() as u32 {
-            let Some(crossing) = self.hit_instance(index, ray, leaving, limit, scratch) else { continue };
+            let Some(c) = self.hit_instance(index, ray, leaving, limit, scratch) else { continue };
             // Among equals the first one stays.
-            if best.is_none_or(|b: Candidate| crossing.distance < b.crossing.distance) {
+            if best.is_none_or(|b: Candidate| c.distance < b.crossing.distance) {
+                let feature = Feature { part: c.feature.part, face: c.feature.face, uv: c.feature.uv };
+                let crossing = Crossing { distance: c.distance, feature, exiting: c.exiting };
                 best = Some(Candidate { instance: index, crossing });
-                limit = limit.min(crossing.distance);
+                limit = limit.min(c.distance);
             }
         }
         best
