@@ -7,7 +7,8 @@ use crate::{Attachment, Ray, Scratch};
 const PIECE: usize = 256;
 
 impl<A: Attachment> Scene<A> {
-    /// The surfaces at the nearest hits of many rays, in the order of the rays. All processors share the work.
+    /// The surfaces at the nearest hits of many rays, in the order of the rays. All processors share the work, which pays
+    /// where a hit costs more than the memory of its surface: with meshes, composites or many shapes.
     ///
     /// ```
     /// use raysect_core::{Ray, World};
