@@ -243,7 +243,8 @@ impl Frame {
     /// - Where its neighbours (those that touch it, one or two in a row of pixels) have a larger variance, that of a pixel
     ///   is raised by a share *w* of the way to their geometric mean: the share of the scatter of variances among
     ///   neighbours that their own uncertainty explains (B. Efron, C. Morris, JASA 68, 1973, for logarithms of variances).
-    ///   It is never lowered, and a pixel ten times as quiet as its neighbours is believed to be another kind of pixel.
+    ///   It is never lowered, and raised at most as that of a pixel ten times as quiet as its neighbours: one that is
+    ///   quieter still is likely another kind of pixel.
     /// - Intervals of means of skewed samples cover less than they should, to the first order by a term in γ² / n, with
     ///   the skewness γ of the samples (P. Hall, *The Bootstrap and Edgeworth Expansion*, 1992, § 2.6). The factor is
     ///   1 + 1.2 (1 − w)² γ² / n, at most 1.5, where γ is the mean of the skewness that the samples of each pixel of the
