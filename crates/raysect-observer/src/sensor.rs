@@ -38,6 +38,14 @@ impl FrameShape {
             Self::Image { rows, .. } => rows,
         }
     }
+
+    /// A pixel and those that it touches.
+    pub(crate) fn around(self, pixel: usize) -> impl Iterator<Item = usize> {
+        let (columns, rows) = (self.columns(), self.rows());
+        let near = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
+        let (column, row) = (pixel % columns, pixel / columns);
+        near(row, rows).flat_map(move |row| near(column, columns).map(move |column| row * columns + column))
+    }
 }
 
 impl std::fmt::Display for FrameShape {
@@ -118,5 +126,21 @@ pub(crate) fn radiance_weight<S: Sensor + ?Sized>(sensor: &S, pixel: usize, ray:
             if seen == 0.0 { 0.0 } else { seen / (pdf * etendue) }
         }
         _ => response,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_touch_those_beside_them_and_none_beyond_the_border() {
+        let of = |shape: FrameShape, pixel| shape.around(pixel).collect::<Vec<_>>();
+        let image = FrameShape::Image { columns: 4, rows: 3 };
+        assert_eq!(of(image, 5), [0, 1, 2, 4, 5, 6, 8, 9, 10]);
+        assert_eq!(of(image, 3), [2, 3, 6, 7]);
+        assert_eq!(of(image, 8), [4, 5, 8, 9]);
+        assert_eq!(of(FrameShape::Line(5), 4), [3, 4]);
+        assert_eq!(of(FrameShape::Single, 0), [0]);
     }
 }

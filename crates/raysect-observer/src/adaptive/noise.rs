@@ -1,7 +1,7 @@
 //! What a pilot tells of the pixels.
 
 use super::{AdaptiveSampling, Figure, Rule};
-use crate::{Frame, FrameShape};
+use crate::Frame;
 
 /// The standard deviation of a sample of each pixel that is observed, as it enters a rule: relative to the mean, or over
 /// the root of the number of rays.
@@ -33,7 +33,7 @@ impl Channel {
         let mut known = vec![None; frame.shape().pixels()];
         pixels.iter().enumerate().for_each(|(place, &pixel)| known[pixel] = own(place));
         let pooled = |&pixel: &usize| {
-            let around = self::average(around(frame.shape(), pixel).filter_map(|p| known[p]));
+            let around = self::average(frame.shape().around(pixel).filter_map(|p| known[p]));
             0.5 * (known[pixel].unwrap_or(around) + around)
         };
         let variances = pixels.iter().map(pooled).collect();
@@ -93,14 +93,6 @@ fn reduced(figure: Figure, channels: impl Iterator<Item = (f64, f64)> + Clone) -
     }
 }
 
-/// A pixel and those that it touches.
-fn around(shape: FrameShape, pixel: usize) -> impl Iterator<Item = usize> {
-    let (columns, rows) = (shape.columns(), shape.rows());
-    let near = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
-    let (column, row) = (pixel % columns, pixel / columns);
-    near(row, rows).flat_map(move |row| near(column, columns).map(move |column| row * columns + column))
-}
-
 /// The value that this percentage of some values does not exceed, interpolated between its neighbours. The values are
 /// sorted for it; there must be one at least.
 pub(super) fn percentile(values: &mut [f64], percentage: f64) -> f64 {
@@ -113,6 +105,7 @@ pub(super) fn percentile(values: &mut [f64], percentage: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::FrameShape;
     use crate::frame::add_sample;
 
     /// A frame of one channel whose pixels have these samples.
@@ -133,17 +126,6 @@ mod tests {
         let frame = frame_of(FrameShape::Line(samples.len()), samples);
         let pixels: Vec<usize> = (0..samples.len()).collect();
         Noise::of(&sampling, &frame, &pixels, &vec![8; samples.len()]).0
-    }
-
-    #[test]
-    fn pixels_touch_those_beside_them_and_none_beyond_the_border() {
-        let of = |shape, pixel| around(shape, pixel).collect::<Vec<_>>();
-        let image = FrameShape::Image { columns: 4, rows: 3 };
-        assert_eq!(of(image, 5), [0, 1, 2, 4, 5, 6, 8, 9, 10]);
-        assert_eq!(of(image, 3), [2, 3, 6, 7]);
-        assert_eq!(of(image, 8), [4, 5, 8, 9]);
-        assert_eq!(of(FrameShape::Line(5), 4), [3, 4]);
-        assert_eq!(of(FrameShape::Single, 0), [0]);
     }
 
     #[test]

@@ -6,11 +6,11 @@
 //! Rule and its Competitors*, JASA 68, 1973: empirical Bayes, here for logarithms of variances). Variances are raised
 //! only, never lowered: a pixel that is noisier than those about it stays as it is.
 
-use super::Frame;
-use super::lengthening::ENOUGH;
+use super::lengthening::Told;
+use crate::FrameShape;
 
-/// A variance is at most this many times too small, for all that is known: a pixel that is quieter still is another
-/// kind of pixel (B. Efron, C. Morris, *Limiting the Risk of Bayes and Empirical Bayes Estimators*, JASA 67, 1972).
+/// A variance is taken to be this many times too small at most: a pixel that is quieter still is likely another kind of
+/// pixel (B. Efron, C. Morris, *Limiting the Risk of Bayes and Empirical Bayes Estimators*, JASA 67, 1972).
 const FARTHEST: f64 = 10.0;
 
 /// The moments of n samples tell too little of the variance of their variance, since the rarest are missing: by about
@@ -28,20 +28,21 @@ pub(super) struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    /// Of the pixels of a frame.
-    pub(super) fn of(frame: &Frame) -> Self {
-        let logarithms: Vec<f64> = (0..frame.observed.len()).map(|p| log_variance(frame, p)).collect();
-        let mut found = Self { excess: vec![0.0; logarithms.len()], doubt: 0.0, spread: 0.0 };
+    /// Of pixels arranged in a shape, from what the samples of each tell.
+    pub(super) fn of(shape: FrameShape, told: &[Option<Told>]) -> Self {
+        let logarithms: Vec<f64> = told.iter().map(log_variance).collect();
+        let mut found = Self { excess: vec![0.0; told.len()], doubt: 0.0, spread: 0.0 };
         let (mut count, mut doubt, mut scatter, mut explained) = (0.0, 0.0, 0.0, 0.0);
-        for (pixel, own) in logarithms.iter().enumerate().filter(|(_, own)| !own.is_nan()) {
-            let (others, sum) = around(frame, &logarithms, pixel);
-            if others > 1.0 {
-                let samples = frame.samples(pixel) as f64;
-                found.excess[pixel] = sum / others - own;
+        for (pixel, told) in told.iter().enumerate() {
+            let Some(told) = told.as_ref().filter(|_| !logarithms[pixel].is_nan()) else { continue };
+            let around = shape.around(pixel).map(|p| logarithms[p]).filter(|x| !x.is_nan());
+            let (pixels, sum) = around.fold((0.0, 0.0), |(n, sum), x| (n + 1.0, sum + x));
+            if pixels > 1.0 {
+                found.excess[pixel] = sum / pixels - logarithms[pixel];
                 count += 1.0;
-                scatter += found.excess[pixel].powi(2) * (others / (others - 1.0));
-                doubt += frame.variance_of_variance(pixel) * samples;
-                explained += doubt_after(samples);
+                scatter += found.excess[pixel].powi(2) * (pixels / (pixels - 1.0));
+                doubt += told.variance_of_variance * told.samples;
+                explained += doubt_after(told.samples);
             }
         }
         if count > 0.0 {
@@ -69,20 +70,8 @@ fn doubt_after(samples: f64) -> f64 {
     (1.0 + MISSING / samples) / samples
 }
 
-/// Logarithm of the variance of a sample of a pixel, all channels together; NaN if it has none that tells something.
-fn log_variance(frame: &Frame, pixel: usize) -> f64 {
-    if frame.is_masked(pixel) || (frame.contributing(pixel) as f64) < ENOUGH {
-        return f64::NAN;
-    }
-    let variance = frame.squared_error(pixel) * frame.samples(pixel) as f64;
+/// Logarithm of the variance of a sample of a pixel; NaN if that is not known, or 0.
+fn log_variance(told: &Option<Told>) -> f64 {
+    let variance = told.as_ref().map_or(f64::NAN, |told| told.variance);
     if variance > 0.0 && variance.is_finite() { variance.ln() } else { f64::NAN }
-}
-
-/// How many pixels, itself and those that touch it, tell something about a pixel, and the sum of what they tell.
-fn around(frame: &Frame, logarithms: &[f64], pixel: usize) -> (f64, f64) {
-    let (columns, rows) = (frame.shape.columns(), frame.shape.rows());
-    let (row, column) = (pixel / columns, pixel % columns);
-    let near = |at: usize, of: usize| at.saturating_sub(1)..(at + 2).min(of);
-    let places = near(row, rows).flat_map(|r| near(column, columns).map(move |c| r * columns + c));
-    places.map(|p| logarithms[p]).filter(|x| !x.is_nan()).fold((0.0, 0.0), |(n, sum), x| (n + 1.0, sum + x))
 }
