@@ -132,7 +132,8 @@ impl<A> Instance<A> {
     }
 
     /// Everything about the surface at a hit of it.
-    #[inline]
+    // Always within `Scene::finish`: the answer of a call within a call would be copied on its way out.
+    #[inline(always)]
     pub(super) fn surface_at(&self, ray: &Ray, hit: &Candidate) -> SurfacePoint {
         if self.in_place {
             return self.surface_in_place(ray, hit);

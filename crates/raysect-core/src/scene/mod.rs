@@ -34,6 +34,20 @@ impl<A: Attachment> std::fmt::Debug for Scene<A> {
     }
 }
 
+/// What has been hit, by its instance and crossing, which is taken apart and put together again: one that is copied as a
+/// whole is read in larger pieces than it has just been written in, and the copy waits until all of these have reached
+/// memory. A function would copy it in passing.
+macro_rules! candidate {
+    ($instance:expr, $crossing:ident) => {{
+        let Feature { part, face, uv } = $crossing.feature;
+        let (distance, exiting) = ($crossing.distance, $crossing.exiting);
+        Candidate {
+            instance: $instance,
+            crossing: Crossing { distance, feature: Feature { part, face, uv }, exiting },
+        }
+    }};
+}
+
 impl<A: Attachment> Scene<A> {
     pub(crate) fn new(
         instances: Vec<Instance<A>>,
@@ -56,8 +70,6 @@ impl<A: Attachment> Scene<A> {
         if self.few { self.hit_few(ray, leaving, scratch) } else { self.hit_many(ray, leaving, scratch) }
     }
 
-    // Crossings are taken apart and put together again: one that is copied as a whole is read in larger pieces than it has
-    // just been written in, and the copy waits until all of these have reached memory.
     #[inline(always)]
     fn hit_many(&self, ray: &Ray, leaving: Option<&Leaving>, scratch: &mut Scratch) -> Option<Candidate> {
         let mut best: Option<Candidate> = None;
@@ -68,9 +80,7 @@ impl<A: Attachment> Scene<A> {
                 c.distance < b.crossing.distance || (c.distance == b.crossing.distance && index < b.instance)
             });
             if nearer {
-                let feature = Feature { part: c.feature.part, face: c.feature.face, uv: c.feature.uv };
-                let crossing = Crossing { distance: c.distance, feature, exiting: c.exiting };
-                best = Some(Candidate { instance: index, crossing });
+                best = Some(candidate!(index, c));
             }
             c.distance.min(limit)
         });
@@ -81,18 +91,14 @@ impl<A: Attachment> Scene<A> {
     fn hit_few(&self, ray: &Ray, leaving: Option<&Leaving>, scratch: &mut Scratch) -> Option<Candidate> {
         if let [_] = self.instances[..] {
             let c = self.hit_instance(0, ray, leaving, ray.max_distance, scratch)?;
-            let feature = Feature { part: c.feature.part, face: c.feature.face, uv: c.feature.uv };
-            let crossing = Crossing { distance: c.distance, feature, exiting: c.exiting };
-            return Some(Candidate { instance: 0, crossing });
+            return Some(candidate!(0, c));
         }
         let (mut best, mut limit) = (None, ray.max_distance);
         for index in 0..self.instances.len() as u32 {
             let Some(c) = self.hit_instance(index, ray, leaving, limit, scratch) else { continue };
             // Among equals the first one stays.
             if best.is_none_or(|b: Candidate| c.distance < b.crossing.distance) {
-                let feature = Feature { part: c.feature.part, face: c.feature.face, uv: c.feature.uv };
-                let crossing = Crossing { distance: c.distance, feature, exiting: c.exiting };
-                best = Some(Candidate { instance: index, crossing });
+                best = Some(candidate!(index, c));
                 limit = limit.min(c.distance);
             }
         }
