@@ -57,6 +57,7 @@ fn is_picture(path: &PathBuf) {
     assert_eq!(image::open(path).unwrap().into_rgb8().dimensions(), (4, 3));
 }
 
+#[cfg(feature = "plot")]
 fn pixel() -> Pixel {
     Pixel::new(0.1, 0.1).unwrap().wavelengths(400.0, 600.0).spectral_bins(4).quiet(true)
 }
